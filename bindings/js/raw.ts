@@ -1,0 +1,169 @@
+// The shape of the WASM modules as embind exposes them: what bindings/wasm/bind_*.cpp provides and
+// the TypeScript facade beside this file consumes. Nothing here is public.
+//
+// Conventions. A fallible call returns a RawStatus (code "ok" or an error code of the contract).
+// Arrays go in through a RawScratch: ask for a view, `.set()` it, pass the scratch. Arrays come out
+// as a view of WASM memory that is valid only until the next call: copy at once.
+// Every object is freed with delete().
+
+export interface RawStatus {
+  code: string; // "ok" | "invalid-shape" | "invalid-option" | "invalid-handle" | "parse-error" | "not-solvable" | "too-large"
+  message: string;
+}
+
+export interface RawObject {
+  delete(): void;
+}
+
+/** Staging memory for arrays on their way in. Each slot keeps its content until resized. */
+export interface RawScratch extends RawObject {
+  doubles(length: number): Float64Array;
+  integers(length: number): Int32Array;
+  bytes(length: number): Uint8Array;
+}
+
+export interface RawShapeReport {
+  vertices: number;
+  triangles: number;
+  components: number;
+  boundaryEdges: number;
+  nonManifoldEdges: number;
+  degenerateTriangles: number;
+  weldedVertices: number;
+}
+
+export interface RawShape extends RawObject {
+  /** doubles: dimension * n coordinates; integers: 3 * m vertex ids (may be empty). */
+  build(scratch: RawScratch, dimension: number): RawStatus;
+  report(): RawShapeReport;
+  diagonal(): number;
+}
+
+export interface RawStep {
+  status: RawStatus;
+  iteration: number;
+  energy: number;
+  accepted: boolean;
+  converged: boolean;
+}
+
+export interface RawEnergyTerm {
+  name: string;
+  value: number;
+  weight: number;
+}
+
+export interface RawCounters {
+  unknowns: number;
+  factorizations: number;
+  analyses: number;
+}
+
+export interface RawEmbeddedGraphOptions {
+  nodeCount: number;
+  sampling: string; // "surface" | "simplify" | "nodes" (then scratch.doubles holds 3 m coordinates)
+  neighbours: number; // 0: the default, min(4, nodes)
+  rotationWeight: number;
+  regularizationWeight: number;
+  constraintWeight: number;
+  solver: string; // "auto" | "gauss-newton"
+  exactHandles: boolean;
+  seed: number;
+}
+
+/** A saved deformation, table by table. columns 0: a scalar. */
+export interface RawState extends RawObject {
+  size(): number;
+  name(table: number): string;
+  columns(table: number): number;
+  integral(table: number): boolean;
+  data(table: number): Float64Array;
+  /** Takes scratch.doubles as the table's data. */
+  add(name: string, columns: number, integral: boolean, scratch: RawScratch): void;
+}
+
+export interface RawDeformer extends RawObject {
+  /** Cuts: scratch.integers holds, for each pair, |a|, a..., |b|, b... (empty: none). */
+  buildEmbeddedGraph(shape: RawShape, options: RawEmbeddedGraphOptions, scratch: RawScratch): RawStatus;
+  /** integers: vertex ids. */
+  setFixed(scratch: RawScratch): RawStatus;
+  /** integers: vertex ids; the new id is in `id` (0 on error). */
+  addHandle(scratch: RawScratch): { status: RawStatus; id: number };
+  removeHandle(id: number): RawStatus;
+  /** doubles: scale, center xyz, axis xyz, angle (radians), about xyz, translation xyz (14 numbers). */
+  moveHandle(id: number, scratch: RawScratch): RawStatus;
+  /** doubles: 3 a vertex of the handle. */
+  setTargets(id: number, scratch: RawScratch): RawStatus;
+  step(tolerance: number): RawStep;
+  energyTotal(): number;
+  energyTerms(): RawEnergyTerm[];
+  counters(): RawCounters;
+  positions(): Float32Array; // 3 n
+  positions64(): Float64Array; // 3 n
+  normals(): Float32Array; // 3 n
+  /** doubles in: 3 q; on success `points` is a view of 3 q doubles. */
+  transformPoints(scratch: RawScratch): { status: RawStatus; points: Float64Array };
+  /** Adds graph nodes where the energy terms are high; `added` 0 where nothing is left to refine. */
+  refine(maxNodes: number): { status: RawStatus; added: number };
+  reset(): void;
+  save(state: RawState): void;
+  restore(state: RawState): RawStatus;
+}
+
+export interface RawQuality {
+  stretchMean: number;
+  stretchP95: number;
+  stretchMax: number;
+  shear: number;
+  volume: number; // NaN where not defined
+  area: number; // NaN where not defined
+  folds: number;
+  intersections: number;
+  roughnessRest: number;
+  roughness: number;
+}
+
+/** pliant.wasm: the solvers. */
+export interface RawModule {
+  Scratch: new () => RawScratch;
+  Shape: new () => RawShape;
+  Deformer: new () => RawDeformer;
+  State: new () => RawState;
+  /** doubles: 3 n deformed positions of the input's vertices. */
+  measureQuality(shape: RawShape, scratch: RawScratch, withIntersections: boolean): RawQuality;
+}
+
+/** A file read into memory (bind_io.cpp). */
+export interface RawDocument extends RawObject {
+  /** format: "obj" | "ply" | "off" | "stl" | "xyz"; bytes: the file. */
+  read(format: string, scratch: RawScratch): RawStatus;
+  positions(): Float64Array; // 3 n
+  /** Polygons as a flat list of vertex ids, and where each begins: faceOffsets has faces + 1 entries. */
+  faceVertices(): Uint32Array;
+  faceOffsets(): Uint32Array;
+  triangles(): Uint32Array; // the polygons as triangles, 3 m
+  /** Texture coordinates, 2 a corner in faceVertices order; empty where the file has none. */
+  cornerTexcoords(): Float64Array;
+  /** Sets positions (doubles), polygons (integers: count, ids..., count, ids...), for writing what another reader read. */
+  assign(scratch: RawScratch): RawStatus;
+  /** Sets texture coordinates, 2 a corner (doubles). */
+  assignTexcoords(scratch: RawScratch): RawStatus;
+  /** doubles: 3 n new positions. On success `bytes` is a view of the file. */
+  write(format: string, scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };
+}
+
+/** Streams a file through, replacing coordinates and keeping every other byte (bind_io.cpp). */
+export interface RawRewriter extends RawObject {
+  open(format: string): RawStatus;
+  /** bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found. */
+  push(scratch: RawScratch, last: boolean): { status: RawStatus; points: Float64Array };
+  /** doubles: the new coordinates of the last push, as many. `bytes` is what to write. */
+  emit(scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };
+}
+
+/** pliant-io.wasm: readers and writers, loaded only by those who read files. */
+export interface RawIoModule {
+  Scratch: new () => RawScratch;
+  Document: new () => RawDocument;
+  Rewriter: new () => RawRewriter;
+}

@@ -1,0 +1,123 @@
+// THE interface: every method is a Deformer. Bindings, demo, command and benches know nothing else.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pliant/core/status.h"
+#include "pliant/geometry/shape.h"
+#include "pliant/solve/handle.h"
+#include "pliant/solve/state.h"
+
+namespace pliant {
+
+/// One term of an energy: `value` is unweighted, the total is the sum of weight * value.
+struct EnergyTerm {
+  std::string name;
+  double value = 0.0;
+  double weight = 1.0;
+};
+
+struct Energy {
+  double total = 0.0;
+  std::vector<EnergyTerm> terms;
+};
+
+/// What one iteration did.
+struct StepReport {
+  int iteration = 0;       ///< accepted steps since the constraints last changed
+  double energy = 0.0;     ///< after the step
+  bool accepted = true;    ///< false: no step lowers the energy any more
+  bool converged = false;  ///< the method's own test holds at the given tolerance
+};
+
+/// What solving has cost since construction.
+struct Counters {
+  Index unknowns = 0;      ///< scalar unknowns of the current system
+  int factorizations = 0;  ///< numerical factorisations
+  int analyses = 0;        ///< symbolic ones
+};
+
+/// A shape, constraints on it, and a method that finds the deformation. All vertex ids are those of
+/// the input; lengths are in its unit; point sets are 3 x n (z = 0 in the plane).
+class Deformer {
+ public:
+  explicit Deformer(std::shared_ptr<const Shape> shape);
+  virtual ~Deformer() = default;
+  Deformer(const Deformer&) = delete;
+  Deformer& operator=(const Deformer&) = delete;
+
+  const Shape& shape() const { return *shape_; }
+
+  // -- On grab: the pattern of the system changes, the next step factorises. ------------------------
+  /// Replaces the fixed region (empty: none). Errors: invalid_handle (id out of range, duplicate,
+  /// vertex of a handle). On error nothing changes.
+  Status set_fixed(std::span<const Index> vertices);
+  /// Adds a handle at rest. Errors as above, and for no vertices or a vertex of another handle.
+  Result<HandleId> add_handle(std::span<const Index> vertices);
+  Status remove_handle(HandleId id);
+
+  // -- On drag: only the right-hand side changes. --------------------------------------------------
+  Status move_handle(HandleId id, const Motion& motion);
+  /// targets: 3 x |vertices of the handle|, in the order the handle was given.
+  Status set_targets(HandleId id, const Points& targets);
+
+  // -- Solving. ------------------------------------------------------------------------------------
+  /// One iteration. tolerance: of the method's own stop test.
+  /// Errors: not_solvable, too_large (on the first step of a grab); the state is then unchanged.
+  Result<StepReport> step(double tolerance = 1e-6);
+  /// Terms at the current deformation and targets.
+  virtual Energy energy() const = 0;
+  virtual Counters counters() const = 0;
+
+  // -- Results. ------------------------------------------------------------------------------------
+  /// 3 x n deformed positions of the input's vertices.
+  Points positions() const { return shape_->scatter(point_positions()); }
+  /// 3 x n unit normals of the deformed shape.
+  Points normals() const { return shape_->scatter(point_normals()); }
+  /// Deformed positions of the shape's points, 3 x p.
+  virtual Points point_positions() const = 0;
+  virtual Points point_normals() const = 0;
+  /// Any other points carried by the same deformation, 3 x q, in rest coordinates.
+  /// Errors: not_solvable where the method does not deform space.
+  virtual Result<Points> transform_points(const Points& points) const = 0;
+
+  // -- Life. ---------------------------------------------------------------------------------------
+  /// Back to rest, bit for bit; handles and the fixed region stay, targets return to rest.
+  void reset();
+  /// Everything needed to recompute the result without Pliant (contract, section 3).
+  virtual State save() const = 0;
+  /// Takes a deformation saved by the same method on the same shape. Targets of handles with the
+  /// same vertices are restored too. Errors: invalid_option (a field is missing or does not fit).
+  virtual Status restore(const State& state) = 0;
+
+  const std::vector<Index>& fixed_points() const { return fixed_points_; }
+  const std::vector<Handle>& handles() const { return handles_; }
+
+ protected:
+  /// The set of constrained points changed.
+  virtual void constraints_changed() = 0;
+  /// Only targets changed.
+  virtual void targets_changed() = 0;
+  virtual Result<StepReport> do_step(double tolerance) = 0;
+  virtual void do_reset() = 0;
+
+  void save_handles(State& state) const;
+  Status restore_handles(const State& state);
+
+ private:
+  Result<std::vector<Index>> checked_points(std::span<const Index> vertices, const char* argument,
+                                            std::vector<Index>* kept) const;
+  Handle* find(HandleId id);
+
+  std::shared_ptr<const Shape> shape_;
+  std::vector<Index> fixed_points_;
+  std::vector<Handle> handles_;
+  /// Of each handle, the caller's list: target columns to keep for each point.
+  std::vector<std::vector<Index>> kept_columns_;
+  HandleId next_id_ = 1;
+};
+
+}  // namespace pliant
