@@ -1,0 +1,1 @@
+#include "pliant/io/document.h"
