@@ -1,0 +1,38 @@
+// Staging memory for arrays on their way into a module: RawScratch of bindings/js/raw.ts.
+// JavaScript asks for a view, fills it by `.set()` and passes the scratch to the call that reads
+// it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <emscripten/val.h>
+
+namespace pliant::bindings {
+
+/// Three slots, one a type of number; each keeps its content until it is resized.
+class Scratch {
+ public:
+  /// Resize a slot and return a view of it, valid until WASM memory next grows: fill it at once.
+  /// The request is a JavaScript number; bindings/js passes lengths of arrays, so it is >= 0.
+  emscripten::val doubles(std::uint32_t length);
+  emscripten::val integers(std::uint32_t length);
+  emscripten::val bytes(std::uint32_t length);
+
+  const std::vector<double>& doubles() const { return doubles_; }
+  const std::vector<std::int32_t>& integers() const { return integers_; }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<double> doubles_;
+  std::vector<std::int32_t> integers_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// A view of an array that WASM memory holds, valid until the owner's next call.
+template <class T>
+emscripten::val view_of(const std::vector<T>& array) {
+  return emscripten::val(emscripten::typed_memory_view(array.size(), array.data()));
+}
+
+}  // namespace pliant::bindings
