@@ -22,7 +22,8 @@ enum class ErrorCode {
 
 const char* error_code_name(ErrorCode code);
 
-/// Success, or an error code with a message that names the argument, the value and what was expected.
+/// Success, or an error code with a message that names the argument, the value and what was
+/// expected.
 class [[nodiscard]] Status {
  public:
   Status() = default;

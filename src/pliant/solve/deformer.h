@@ -51,7 +51,8 @@ class Deformer {
 
   const Shape& shape() const { return *shape_; }
 
-  // -- On grab: the pattern of the system changes, the next step factorises. ------------------------
+  // -- On grab: the pattern of the system changes, the next step factorises.
+  // ------------------------
   /// Replaces the fixed region (empty: none). Errors: invalid_handle (id out of range, duplicate,
   /// vertex of a handle). On error nothing changes.
   Status set_fixed(std::span<const Index> vertices);
@@ -59,12 +60,14 @@ class Deformer {
   Result<HandleId> add_handle(std::span<const Index> vertices);
   Status remove_handle(HandleId id);
 
-  // -- On drag: only the right-hand side changes. --------------------------------------------------
+  // -- On drag: only the right-hand side changes.
+  // --------------------------------------------------
   Status move_handle(HandleId id, const Motion& motion);
   /// targets: 3 x |vertices of the handle|, in the order the handle was given.
   Status set_targets(HandleId id, const Points& targets);
 
-  // -- Solving. ------------------------------------------------------------------------------------
+  // -- Solving.
+  // ------------------------------------------------------------------------------------
   /// One iteration. tolerance: of the method's own stop test.
   /// Errors: not_solvable, too_large (on the first step of a grab); the state is then unchanged.
   Result<StepReport> step(double tolerance = 1e-6);
@@ -72,7 +75,8 @@ class Deformer {
   virtual Energy energy() const = 0;
   virtual Counters counters() const = 0;
 
-  // -- Results. ------------------------------------------------------------------------------------
+  // -- Results.
+  // ------------------------------------------------------------------------------------
   /// 3 x n deformed positions of the input's vertices.
   Points positions() const { return shape_->scatter(point_positions()); }
   /// 3 x n unit normals of the deformed shape.
@@ -84,7 +88,8 @@ class Deformer {
   /// Errors: not_solvable where the method does not deform space.
   virtual Result<Points> transform_points(const Points& points) const = 0;
 
-  // -- Life. ---------------------------------------------------------------------------------------
+  // -- Life.
+  // ---------------------------------------------------------------------------------------
   /// Back to rest, bit for bit; handles and the fixed region stay, targets return to rest.
   void reset();
   /// Everything needed to recompute the result without Pliant (contract, section 3).

@@ -11,7 +11,8 @@ struct StopCriteria {
 };
 
 /// Runs a deformer step by step, so that a caller can yield, report and cancel in between:
-///   for (Run run(deformer, stop); !run.done();) if (auto s = run.advance(); !s.ok()) return s.status();
+///   for (Run run(deformer, stop); !run.done();) if (auto s = run.advance(); !s.ok()) return
+///   s.status();
 class Run {
  public:
   Run(Deformer& deformer, StopCriteria stop) : deformer_(deformer), stop_(stop) {}

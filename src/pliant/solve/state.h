@@ -1,5 +1,5 @@
-// A saved deformation: named tables of numbers, so that every method is saved, bound and restored by
-// the same code.
+// A saved deformation: named tables of numbers, so that every method is saved, bound and restored
+// by the same code.
 #pragma once
 
 #include <string>

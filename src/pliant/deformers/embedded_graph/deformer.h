@@ -1,5 +1,5 @@
-// Embedded deformation (Sumner, Schmid, Pauly: Embedded Deformation for Shape Manipulation, SIGGRAPH
-// 2007): affine transformations on the nodes of a graph, blended over the shape.
+// Embedded deformation (Sumner, Schmid, Pauly: Embedded Deformation for Shape Manipulation,
+// SIGGRAPH 2007): affine transformations on the nodes of a graph, blended over the shape.
 #pragma once
 
 #include <memory>

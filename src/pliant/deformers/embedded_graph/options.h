@@ -30,8 +30,8 @@ struct Cut {
 struct EmbeddedGraphOptions {
   Index node_count = 0;  ///< 0: 250, or as many as the shape has points
   NodeSampling sampling = NodeSampling::surface;
-  Points nodes;            ///< 3 x m, for NodeSampling::nodes
-  int neighbours = 0;      ///< k of eq. 4; 0: 4, or as many as there are nodes
+  Points nodes;        ///< 3 x m, for NodeSampling::nodes
+  int neighbours = 0;  ///< k of eq. 4; 0: 4, or as many as there are nodes
   double rotation_weight = 1.0;
   double regularization_weight = 10.0;
   double constraint_weight = 100.0;

@@ -1,0 +1,40 @@
+// A symmetric matrix of dense blocks over a graph: one diagonal block a node, one block an edge.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+/// An undirected edge (j, k) with j < k.
+using Edge = std::array<Index, 2>;
+
+/// B x B blocks, column-major. `off_diagonal` holds the block in rows of edge[1], columns of
+/// edge[0] (the lower triangle); only the lower triangle of a diagonal block is read.
+struct BlockMatrix {
+  int block = 1;  ///< B
+  Index nodes = 0;
+  std::vector<Edge> edges;           ///< sorted, without duplicates
+  std::vector<double> diagonal;      ///< nodes x B x B
+  std::vector<double> off_diagonal;  ///< edges x B x B
+
+  void set_zero(int block_size, Index node_count, std::vector<Edge> sorted_edges) {
+    block = block_size;
+    nodes = node_count;
+    edges = std::move(sorted_edges);
+    diagonal.assign(static_cast<std::size_t>(nodes) * block * block, 0.0);
+    off_diagonal.assign(edges.size() * block * block, 0.0);
+  }
+  double* diagonal_block(Index j) {
+    return diagonal.data() + static_cast<std::size_t>(j) * block * block;
+  }
+  double* edge_block(std::size_t e) { return off_diagonal.data() + e * block * block; }
+  const double* diagonal_block(Index j) const {
+    return diagonal.data() + static_cast<std::size_t>(j) * block * block;
+  }
+  const double* edge_block(std::size_t e) const { return off_diagonal.data() + e * block * block; }
+};
+
+}  // namespace pliant

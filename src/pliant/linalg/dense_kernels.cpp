@@ -1,0 +1,252 @@
+#include "pliant/linalg/dense_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant::dense {
+namespace {
+
+/// Copies a (rows x depth) into tiles of four rows, each tile depth x 4, zero-padded: the tile
+/// kernel then reads both of its operands in order.
+void pack(const double* a, std::ptrdiff_t lda, int rows, int depth, double* packed) {
+  for (int i = 0; i < rows; i += 4) {
+    const int tile = std::min(4, rows - i);
+    for (int p = 0; p < depth; ++p, packed += 4) {
+      const double* column = a + p * lda + i;
+      for (int r = 0; r < tile; ++r) packed[r] = column[r];
+      for (int r = tile; r < 4; ++r) packed[r] = 0.0;
+    }
+  }
+}
+
+/// c (4 x 4) -= x y' for two packed tiles of depth `depth`.
+inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
+                          int depth) {
+  Vec2 sum[4][2] = {};
+  for (int p = 0; p < depth; ++p, x += 4, y += 4) {
+    const Vec2 x0 = load2(x), x1 = load2(x + 2);
+    for (int j = 0; j < 4; ++j) {
+      const Vec2 yj = splat2(y[j]);
+      sum[j][0] += x0 * yj;
+      sum[j][1] += x1 * yj;
+    }
+  }
+  for (int j = 0; j < 4; ++j) {
+    double* column = c + j * ldc;
+    store2(column, load2(column) - sum[j][0]);
+    store2(column + 2, load2(column + 2) - sum[j][1]);
+  }
+}
+
+/// As subtract_tile, for a tile that is cut off by the border of c.
+void subtract_partial_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
+                           int depth, int rows, int columns) {
+  double tile[16] = {};
+  subtract_tile(tile, 4, x, y, depth);
+  for (int j = 0; j < columns; ++j) {
+    for (int i = 0; i < rows; ++i) c[j * ldc + i] += tile[4 * j + i];
+  }
+}
+
+/// c (rows x columns, its lower trapezoid) -= a a(top)' for a packed a.
+void subtract_packed(double* c, std::ptrdiff_t ldc, const double* packed, int rows, int columns,
+                     int depth) {
+  for (int j = 0; j < columns; j += 4) {
+    const double* y = packed + static_cast<std::ptrdiff_t>(j) * depth;
+    const int width = std::min(4, columns - j);
+    for (int i = j; i < rows; i += 4) {
+      const double* x = packed + static_cast<std::ptrdiff_t>(i) * depth;
+      double* tile = c + j * ldc + i;
+      if (width == 4 && i + 4 <= rows) {
+        subtract_tile(tile, ldc, x, y, depth);
+      } else {
+        subtract_partial_tile(tile, ldc, x, y, depth, std::min(4, rows - i), width);
+      }
+    }
+  }
+}
+
+bool factorize_diagonal(double* a, std::ptrdiff_t ld, int n) {
+  for (int j = 0; j < n; ++j) {
+    double* column = a + j * ld;
+    for (int p = 0; p < j; ++p) {
+      const double* previous = a + p * ld;
+      const double l = previous[j];
+      for (int i = j; i < n; ++i) column[i] -= l * previous[i];
+    }
+    if (!(column[j] > 0.0)) return false;
+    const double root = std::sqrt(column[j]);
+    column[j] = root;
+    for (int i = j + 1; i < n; ++i) column[i] /= root;
+  }
+  return true;
+}
+
+/// Rows below a diagonal block: b <- b L^-T, four rows at a time.
+void solve_below(const double* l, double* b, std::ptrdiff_t ld, int rows, int n) {
+  double inverse[kPanelBlock];
+  for (int j = 0; j < n; ++j) inverse[j] = 1.0 / l[j * ld + j];
+  int i = 0;
+  for (; i + 4 <= rows; i += 4) {
+    Vec2 x[kPanelBlock][2];
+    for (int j = 0; j < n; ++j) {
+      Vec2 s0 = load2(b + j * ld + i), s1 = load2(b + j * ld + i + 2);
+      for (int p = 0; p < j; ++p) {
+        const Vec2 ljp = splat2(l[p * ld + j]);
+        s0 -= x[p][0] * ljp;
+        s1 -= x[p][1] * ljp;
+      }
+      x[j][0] = s0 * splat2(inverse[j]);
+      x[j][1] = s1 * splat2(inverse[j]);
+    }
+    for (int j = 0; j < n; ++j) {
+      store2(b + j * ld + i, x[j][0]);
+      store2(b + j * ld + i + 2, x[j][1]);
+    }
+  }
+  for (; i < rows; ++i) {
+    for (int j = 0; j < n; ++j) {
+      double s = b[j * ld + i];
+      for (int p = 0; p < j; ++p) s -= b[p * ld + i] * l[p * ld + j];
+      b[j * ld + i] = s * inverse[j];
+    }
+  }
+}
+
+/// One row of forward substitution: y[row] - sum over k < limit of L[row, k] y[k].
+template <int Columns>
+void forward_row(const double* panel, int rows, int row, int limit, double* y) {
+  double sum[Columns] = {};
+  for (int k = 0; k < limit; ++k) {
+    const double l = panel[static_cast<std::ptrdiff_t>(k) * rows + row];
+    for (int c = 0; c < Columns; ++c) sum[c] += l * y[c * rows + k];
+  }
+  for (int c = 0; c < Columns; ++c) y[c * rows + row] -= sum[c];
+}
+
+/// Four rows at once: the same for rows [row, row + 4).
+template <int Columns>
+void forward_tile(const double* panel, int rows, int row, int limit, double* y) {
+  Vec2 sum[2][Columns] = {};
+  const double* l = panel + row;
+  for (int k = 0; k < limit; ++k, l += rows) {
+    const Vec2 l0 = load2(l), l1 = load2(l + 2);
+    for (int c = 0; c < Columns; ++c) {
+      const Vec2 x = splat2(y[c * rows + k]);
+      sum[0][c] += l0 * x;
+      sum[1][c] += l1 * x;
+    }
+  }
+  for (int c = 0; c < Columns; ++c) {
+    double* target = y + c * rows + row;
+    store2(target, load2(target) - sum[0][c]);
+    store2(target + 2, load2(target + 2) - sum[1][c]);
+  }
+}
+
+/// Sums over rows >= from of L[i, column + 0..1] y[i], for two columns of a panel.
+template <int Columns>
+void backward_pair(const double* panel, int rows, int column, int from, const double* y,
+                   double (&sum)[2][Columns]) {
+  const double* a = panel + static_cast<std::ptrdiff_t>(column) * rows;
+  const double* b = a + rows;
+  Vec2 partial[2][Columns] = {};
+  int i = from;
+  for (; i + 2 <= rows; i += 2) {
+    const Vec2 la = load2(a + i), lb = load2(b + i);
+    for (int c = 0; c < Columns; ++c) {
+      const Vec2 yi = load2(y + c * rows + i);
+      partial[0][c] += la * yi;
+      partial[1][c] += lb * yi;
+    }
+  }
+  for (int c = 0; c < Columns; ++c) {
+    sum[0][c] = partial[0][c][0] + partial[0][c][1];
+    sum[1][c] = partial[1][c][0] + partial[1][c][1];
+    if (i < rows) {
+      sum[0][c] += a[i] * y[c * rows + i];
+      sum[1][c] += b[i] * y[c * rows + i];
+    }
+  }
+}
+
+}  // namespace
+
+bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, double* packed) {
+  for (int k = 0; k < columns; k += kPanelBlock) {
+    const int n = std::min(kPanelBlock, columns - k);
+    double* diagonal = panel + k * ld + k;
+    if (!factorize_diagonal(diagonal, ld, n)) return false;
+    const int below = rows - k - n;
+    solve_below(diagonal, diagonal + n, ld, below, n);
+    if (k + n < columns) {
+      pack(diagonal + n, ld, below, n, packed);
+      subtract_packed(panel + (k + n) * ld + k + n, ld, packed, below, columns - k - n, n);
+    }
+  }
+  return true;
+}
+
+void subtract_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
+                    int depth, double* packed) {
+  for (int p = 0; p < depth; p += kPanelBlock) {
+    const int some = std::min(kPanelBlock, depth - p);
+    pack(a + p * lda, lda, n, some, packed);
+    subtract_packed(c, ldc, packed, n, n, some);
+  }
+}
+
+template <int Columns>
+void forward_panel(const double* panel, int rows, int columns, double* y) {
+  int i = 0;
+  for (; i + 4 <= columns; i += 4) {
+    forward_tile<Columns>(panel, rows, i, i, y);
+    for (int r = i; r < i + 4; ++r) {
+      const double* l = panel + r;
+      for (int c = 0; c < Columns; ++c) {
+        double s = y[c * rows + r];
+        for (int k = i; k < r; ++k) s -= l[static_cast<std::ptrdiff_t>(k) * rows] * y[c * rows + k];
+        y[c * rows + r] = s / l[static_cast<std::ptrdiff_t>(r) * rows];
+      }
+    }
+  }
+  for (; i < columns; ++i) {
+    forward_row<Columns>(panel, rows, i, i, y);
+    const double pivot = panel[static_cast<std::ptrdiff_t>(i) * rows + i];
+    for (int c = 0; c < Columns; ++c) y[c * rows + i] /= pivot;
+  }
+  for (; i + 4 <= rows; i += 4) forward_tile<Columns>(panel, rows, i, columns, y);
+  for (; i < rows; ++i) forward_row<Columns>(panel, rows, i, columns, y);
+}
+
+template <int Columns>
+void backward_panel(const double* panel, int rows, int columns, double* y) {
+  int j = columns;
+  if (j % 2 != 0) {
+    --j;
+    const double* l = panel + static_cast<std::ptrdiff_t>(j) * rows;
+    for (int c = 0; c < Columns; ++c) {
+      double s = y[c * rows + j];
+      for (int i = j + 1; i < rows; ++i) s -= l[i] * y[c * rows + i];
+      y[c * rows + j] = s / l[j];
+    }
+  }
+  for (j -= 2; j >= 0; j -= 2) {
+    double sum[2][Columns];
+    backward_pair<Columns>(panel, rows, j, j + 2, y, sum);
+    const double* a = panel + static_cast<std::ptrdiff_t>(j) * rows;
+    const double* b = a + rows;
+    for (int c = 0; c < Columns; ++c) {
+      double* column = y + c * rows;
+      column[j + 1] = (column[j + 1] - sum[1][c]) / b[j + 1];
+      column[j] = (column[j] - sum[0][c] - a[j + 1] * column[j + 1]) / a[j];
+    }
+  }
+}
+
+template void forward_panel<1>(const double*, int, int, double*);
+template void forward_panel<3>(const double*, int, int, double*);
+template void backward_panel<1>(const double*, int, int, double*);
+template void backward_panel<3>(const double*, int, int, double*);
+
+}  // namespace pliant::dense

@@ -1,0 +1,44 @@
+// The dense inner loops of the sparse factorisation: column-major, double, two lanes a vector
+// (which g++, clang and em++ all turn into SSE2 or WASM SIMD). Only lower triangles are meaningful;
+// kernels may write above a diagonal inside the 4 x 4 tiles they work on.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+namespace pliant::dense {
+
+typedef double Vec2 __attribute__((vector_size(16)));
+
+inline Vec2 load2(const double* p) {
+  Vec2 v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store2(double* p, Vec2 v) { std::memcpy(p, &v, sizeof v); }
+inline Vec2 splat2(double x) { return Vec2{x, x}; }
+
+/// Columns eliminated at a time by `factorize_panel`.
+inline constexpr int kPanelBlock = 32;
+
+/// Doubles that `packed` must hold for a front of `rows` rows.
+inline std::size_t packed_size(std::size_t rows) { return (rows + 3) / 4 * 4 * kPanelBlock; }
+
+/// Cholesky of the first `columns` columns of a trapezoid of `rows` rows (leading dimension ld):
+/// the top becomes L11, the rest L21. Returns false when a pivot is not positive.
+bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, double* packed);
+
+/// c -= a a' on the lower triangle of c (n x n); a is n x depth.
+void subtract_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
+                    int depth, double* packed);
+
+/// Forward substitution with a panel [L11; L21] on `Columns` right-hand sides y (stride `rows`
+/// each): y1 <- L11^-1 y1, y2 <- y2 - L21 y1.
+template <int Columns>
+void forward_panel(const double* panel, int rows, int columns, double* y);
+
+/// Backward substitution: y1 <- L11^-T (y1 - L21' y2).
+template <int Columns>
+void backward_panel(const double* panel, int rows, int columns, double* y);
+
+}  // namespace pliant::dense

@@ -1,0 +1,400 @@
+#include "pliant/linalg/sparse_cholesky.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <string>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+
+#include "pliant/linalg/dense_kernels.h"
+
+namespace pliant {
+namespace {
+
+/// Neighbours of each place in elimination order.
+using Adjacency = std::vector<std::vector<Index>>;
+
+/// A fill-reducing order of the nodes: order[place] = node.
+std::vector<Index> minimum_degree_order(const BlockMatrix& matrix) {
+  using Pattern = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(2 * matrix.edges.size() + matrix.nodes);
+  for (Index j = 0; j < matrix.nodes; ++j) entries.emplace_back(j, j, 1.0);
+  for (const auto& [j, k] : matrix.edges) {
+    entries.emplace_back(j, k, 1.0);
+    entries.emplace_back(k, j, 1.0);
+  }
+  Pattern pattern(matrix.nodes, matrix.nodes);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(pattern, permutation);
+  const auto& indices = permutation.indices();
+  return std::vector<Index>(indices.data(), indices.data() + indices.size());
+}
+
+Adjacency adjacency_in_order(const BlockMatrix& matrix, const std::vector<Index>& position) {
+  Adjacency adjacency(matrix.nodes);
+  for (const auto& [j, k] : matrix.edges) {
+    adjacency[position[j]].push_back(position[k]);
+    adjacency[position[k]].push_back(position[j]);
+  }
+  return adjacency;
+}
+
+/// Elimination tree (Liu 1990): parent of each column, -1 at a root.
+std::vector<Index> elimination_tree(const Adjacency& adjacency) {
+  const Index n = static_cast<Index>(adjacency.size());
+  std::vector<Index> parent(n, -1), ancestor(n, -1);
+  for (Index k = 0; k < n; ++k) {
+    for (Index i : adjacency[k]) {
+      while (i != -1 && i < k) {
+        const Index next = ancestor[i];
+        ancestor[i] = k;
+        if (next == -1) parent[i] = k;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+/// Children before parents, each subtree contiguous: order[place] = column.
+std::vector<Index> postorder(const std::vector<Index>& parent) {
+  const Index n = static_cast<Index>(parent.size());
+  std::vector<Index> head(n, -1), next(n, -1), order, stack;
+  order.reserve(n);
+  for (Index j = n - 1; j >= 0; --j) {
+    if (parent[j] == -1) continue;
+    next[j] = head[parent[j]];
+    head[parent[j]] = j;
+  }
+  for (Index root = 0; root < n; ++root) {
+    if (parent[root] != -1) continue;
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const Index j = stack.back();
+      const Index child = head[j];
+      if (child == -1) {
+        order.push_back(j);
+        stack.pop_back();
+      } else {
+        head[j] = next[child];
+        stack.push_back(child);
+      }
+    }
+  }
+  return order;
+}
+
+/// Row structure of every column of L below its diagonal, ascending.
+Adjacency column_structure(const Adjacency& adjacency, const std::vector<Index>& parent) {
+  const Index n = static_cast<Index>(adjacency.size());
+  Adjacency structure(n), children(n);
+  std::vector<Index> mark(n, -1);
+  for (Index j = 0; j < n; ++j) {
+    auto& rows = structure[j];
+    mark[j] = j;
+    auto take = [&](Index i) {
+      if (i > j && mark[i] != j) {
+        mark[i] = j;
+        rows.push_back(i);
+      }
+    };
+    for (Index i : adjacency[j]) take(i);
+    for (Index child : children[j]) {
+      for (Index i : structure[child]) take(i);
+    }
+    std::sort(rows.begin(), rows.end());
+    if (parent[j] != -1) children[parent[j]].push_back(j);
+  }
+  return structure;
+}
+
+/// Whether a child supernode may be merged into its parent although that stores some zeros: small
+/// fronts cost more in overhead than in arithmetic.
+bool worth_merging(double width, double zeros, double total) {
+  const double share = zeros / total;
+  return width <= 4 || (width <= 16 && share < 0.4) || (width <= 48 && share < 0.15) ||
+         share < 0.05;
+}
+
+}  // namespace
+
+void SparseCholesky::order(const BlockMatrix& matrix) {
+  const std::vector<Index> by_degree = minimum_degree_order(matrix);
+  position_.assign(nodes_, 0);
+  for (Index place = 0; place < nodes_; ++place) position_[by_degree[place]] = place;
+  const std::vector<Index> by_tree =
+      postorder(elimination_tree(adjacency_in_order(matrix, position_)));
+  for (Index place = 0; place < nodes_; ++place) position_[by_degree[by_tree[place]]] = place;
+}
+
+void SparseCholesky::find_supernodes(const std::vector<std::vector<Index>>& structure,
+                                     const std::vector<Index>& parent) {
+  // Exact supernodes first, then bottom-up mergers of a supernode with the one that follows it.
+  supernodes_.clear();
+  std::vector<double> zeros;  // nodes-squared of explicit zeros in each panel
+  for (Index j = 0; j < nodes_; ++j) {
+    const bool continues =
+        j > 0 && parent[j - 1] == j && structure[j - 1].size() == structure[j].size() + 1;
+    if (continues) {
+      ++supernodes_.back().width;
+      supernodes_.back().rows = structure[j];
+    } else {
+      Supernode fresh;
+      fresh.first = j;
+      fresh.width = 1;
+      fresh.rows = structure[j];
+      supernodes_.push_back(std::move(fresh));
+      zeros.push_back(0.0);
+    }
+    // The supernode that ends here may swallow the chain of last children before it.
+    const bool ends =
+        j + 1 == nodes_ || parent[j] != j + 1 || structure[j].size() != structure[j + 1].size() + 1;
+    while (ends && supernodes_.size() > 1) {
+      Supernode& top = supernodes_.back();
+      Supernode& below = supernodes_[supernodes_.size() - 2];
+      const bool is_child = !below.rows.empty() && below.rows.front() < top.first + top.width;
+      if (!is_child) break;
+      const double width = below.width + top.width;
+      const double added = static_cast<double>(below.width) *
+                           (top.height() - static_cast<double>(below.rows.size()));
+      const double all_zeros = zeros[zeros.size() - 2] + zeros.back() + added;
+      const double total = width * (width + static_cast<double>(top.rows.size()));
+      if (!worth_merging(width * block_ / 4.0, all_zeros, total)) break;
+      below.width += top.width;
+      below.rows = std::move(top.rows);
+      supernodes_.pop_back();
+      zeros.pop_back();
+      zeros.back() = all_zeros;
+    }
+  }
+}
+
+void SparseCholesky::link_supernodes() {
+  supernode_of_.assign(nodes_, 0);
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    for (Index j = 0; j < supernodes_[s].width; ++j) {
+      supernode_of_[supernodes_[s].first + j] = static_cast<Index>(s);
+    }
+  }
+  factor_size_ = 0;
+  const std::size_t square = static_cast<std::size_t>(block_) * block_;
+  for (Supernode& node : supernodes_) {
+    node.factor = factor_size_;
+    factor_size_ += square * node.height() * node.width;
+    if (node.rows.empty()) continue;
+    node.parent = supernode_of_[node.rows.front()];
+    const Supernode& parent = supernodes_[node.parent];
+    node.parent_position.clear();
+    std::size_t below = 0;
+    for (Index row : node.rows) {
+      if (row < parent.first + parent.width) {
+        node.parent_position.push_back(row - parent.first);
+        continue;
+      }
+      while (parent.rows[below] != row) ++below;
+      node.parent_position.push_back(parent.width + static_cast<Index>(below));
+    }
+  }
+}
+
+void SparseCholesky::place_entries(const BlockMatrix& matrix) {
+  entries_.assign(supernodes_.size(), {});
+  auto front_row = [&](const Supernode& node, Index place) {
+    if (place < node.first + node.width) return place - node.first;
+    const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), place);
+    return node.width + static_cast<Index>(found - node.rows.begin());
+  };
+  for (Index j = 0; j < nodes_; ++j) {
+    const Index s = supernode_of_[position_[j]];
+    const Index at = position_[j] - supernodes_[s].first;
+    entries_[s].push_back({-1 - j, at, at, false});
+  }
+  for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
+    const Index column_place = position_[matrix.edges[e][0]],
+                row_place = position_[matrix.edges[e][1]];
+    const bool transposed = row_place < column_place;
+    const Index low = std::min(row_place, column_place), high = std::max(row_place, column_place);
+    const Index s = supernode_of_[low];
+    entries_[s].push_back({static_cast<Index>(e), front_row(supernodes_[s], high),
+                           low - supernodes_[s].first, transposed});
+  }
+}
+
+std::size_t SparseCholesky::stack_size() const {
+  // Replays the factorisation: a front's update matrix is built above those of its children, which
+  // it then replaces.
+  std::vector<std::size_t> sizes, children(supernodes_.size(), 0);
+  std::size_t used = 0, most = 0;
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const std::size_t n = supernodes_[s].rows.size() * block_;
+    most = std::max(most, used + n * n);
+    for (std::size_t c = 0; c < children[s]; ++c) {
+      used -= sizes.back();
+      sizes.pop_back();
+    }
+    if (supernodes_[s].parent < 0) continue;
+    ++children[supernodes_[s].parent];
+    sizes.push_back(n * n);
+    used += n * n;
+  }
+  return most;
+}
+
+Status SparseCholesky::analyze(const BlockMatrix& matrix) {
+  block_ = matrix.block;
+  nodes_ = matrix.nodes;
+  order(matrix);
+  const Adjacency adjacency = adjacency_in_order(matrix, position_);
+  const std::vector<Index> parent = elimination_tree(adjacency);
+  find_supernodes(column_structure(adjacency, parent), parent);
+  link_supernodes();
+  const std::size_t stack = stack_size();
+  if ((factor_size_ + stack) * sizeof(double) > max_bytes) {
+    return {ErrorCode::too_large,
+            "the system of " + std::to_string(rows()) + " unknowns needs a factor of " +
+                std::to_string((factor_size_ + stack) * sizeof(double) >> 20) +
+                " MiB; expected at most " + std::to_string(max_bytes >> 20)};
+  }
+  place_entries(matrix);
+  std::size_t tallest = 0;
+  for (const Supernode& node : supernodes_) {
+    tallest = std::max(tallest, static_cast<std::size_t>(node.height()) * block_);
+  }
+  factor_.assign(factor_size_, 0.0);
+  stack_.assign(stack, 0.0);
+  waiting_.reserve(supernodes_.size());
+  work_.assign(std::max(dense::packed_size(tallest), 3 * tallest), 0.0);
+  gathered_.assign(static_cast<std::size_t>(rows()) * 3, 0.0);
+  return {};
+}
+
+void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* panel) const {
+  const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(supernodes_[s].height()) * block_;
+  const int b = block_;
+  for (const Entry& entry : entries_[s]) {
+    const double* source = entry.source < 0 ? matrix.diagonal_block(-1 - entry.source)
+                                            : matrix.edge_block(entry.source);
+    double* target = panel + entry.column * b * ld + entry.row * b;
+    for (int c = 0; c < b; ++c) {
+      for (int r = 0; r < b; ++r) {
+        target[c * ld + r] += entry.transposed ? source[r * b + c] : source[c * b + r];
+      }
+    }
+  }
+}
+
+Status SparseCholesky::factorize(const BlockMatrix& matrix) {
+  assert(matrix.nodes == nodes_ && matrix.block == block_);
+  const int b = block_;
+  std::fill(factor_.begin(), factor_.end(), 0.0);
+  // The update matrices waiting for their parents lie on stack_, children of the next front on top.
+  std::size_t top = 0;
+  auto& waiting = waiting_;
+  waiting.clear();
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const Supernode& node = supernodes_[s];
+    const int columns = node.width * b, height = node.height() * b, below = height - columns;
+    double* panel = factor_.data() + node.factor;
+    double* update = stack_.data() + top;
+    std::fill(update, update + static_cast<std::ptrdiff_t>(below) * below, 0.0);
+    assemble(matrix, s, panel);
+
+    std::size_t base = top;
+    while (!waiting.empty() && supernodes_[waiting.back()].parent == static_cast<Index>(s)) {
+      const Supernode& child = supernodes_[waiting.back()];
+      const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
+      base -= n * n;
+      const double* source = stack_.data() + base;
+      for (std::size_t cj = 0; cj < child.rows.size(); ++cj) {
+        const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(child.parent_position[cj]) * b;
+        const bool in_panel = column < columns;
+        const std::ptrdiff_t ld = in_panel ? height : below;
+        double* target =
+            in_panel ? panel + column * ld : update + (column - columns) * ld - columns;
+        for (std::size_t ci = cj; ci < child.rows.size(); ++ci) {
+          const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(child.parent_position[ci]) * b;
+          for (int c = 0; c < b; ++c) {
+            const double* from = source + (cj * b + c) * n + ci * b;
+            double* to = target + c * ld + row;
+            for (int r = 0; r < b; ++r) to[r] += from[r];
+          }
+        }
+      }
+      waiting.pop_back();
+    }
+
+    if (!dense::factorize_panel(panel, height, height, columns, work_.data())) {
+      return {ErrorCode::not_solvable,
+              "the system matrix is not positive definite; expected enough constraints"};
+    }
+    if (below > 0) {
+      dense::subtract_outer(update, below, panel + columns, height, below, columns, work_.data());
+      const std::size_t size = static_cast<std::size_t>(below) * below;
+      std::memmove(stack_.data() + base, update, size * sizeof(double));
+      top = base + size;
+      waiting.push_back(static_cast<Index>(s));
+    } else {
+      top = base;
+    }
+  }
+  return {};
+}
+
+template <int Columns>
+void SparseCholesky::solve_some(double* x) {
+  const std::size_t n = static_cast<std::size_t>(rows());
+  const std::size_t b = block_;
+  for (int c = 0; c < Columns; ++c) {
+    for (Index j = 0; j < nodes_; ++j) {
+      std::copy_n(x + c * n + j * b, b, gathered_.data() + c * n + position_[j] * b);
+    }
+  }
+  double* z = gathered_.data();
+  double* y = work_.data();
+  for (const Supernode& node : supernodes_) {
+    const std::size_t height = node.height() * b, columns = node.width * b;
+    for (int c = 0; c < Columns; ++c) {
+      std::copy_n(z + c * n + node.first * b, columns, y + c * height);
+      std::fill_n(y + c * height + columns, height - columns, 0.0);
+    }
+    dense::forward_panel<Columns>(factor_.data() + node.factor, static_cast<int>(height),
+                                  static_cast<int>(columns), y);
+    for (int c = 0; c < Columns; ++c) {
+      std::copy_n(y + c * height, columns, z + c * n + node.first * b);
+      const double* below = y + c * height + columns;
+      for (Index row : node.rows) {
+        for (std::size_t r = 0; r < b; ++r) z[c * n + row * b + r] += *below++;
+      }
+    }
+  }
+  for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
+    const std::size_t height = node->height() * b, columns = node->width * b;
+    for (int c = 0; c < Columns; ++c) {
+      std::copy_n(z + c * n + node->first * b, columns, y + c * height);
+      double* below = y + c * height + columns;
+      for (Index row : node->rows) below = std::copy_n(z + c * n + row * b, b, below);
+    }
+    dense::backward_panel<Columns>(factor_.data() + node->factor, static_cast<int>(height),
+                                   static_cast<int>(columns), y);
+    for (int c = 0; c < Columns; ++c)
+      std::copy_n(y + c * height, columns, z + c * n + node->first * b);
+  }
+  for (int c = 0; c < Columns; ++c) {
+    for (Index j = 0; j < nodes_; ++j) {
+      std::copy_n(gathered_.data() + c * n + position_[j] * b, b, x + c * n + j * b);
+    }
+  }
+}
+
+void SparseCholesky::solve(double* x, int columns) {
+  const std::size_t n = static_cast<std::size_t>(rows());
+  int c = 0;
+  for (; c + 3 <= columns; c += 3) solve_some<3>(x + c * n);
+  for (; c < columns; ++c) solve_some<1>(x + c * n);
+}
+
+}  // namespace pliant

@@ -1,0 +1,78 @@
+// Sparse Cholesky for symmetric positive definite block matrices: analyse a pattern once, factorise
+// as often as the values change, solve as often as the right-hand side does.
+//
+// Multifrontal: the pattern is ordered (approximate minimum degree on nodes, not scalars) and its
+// columns gathered into supernodes, so that all arithmetic happens in dense fronts.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pliant/core/status.h"
+#include "pliant/linalg/block_matrix.h"
+
+namespace pliant {
+
+class SparseCholesky {
+ public:
+  /// Orders the pattern and allocates everything that factorising and solving need.
+  /// Errors: too_large (the factor would take more than `max_bytes`); the object is then unusable.
+  Status analyze(const BlockMatrix& matrix);
+
+  /// L L' = matrix, which must have the analysed pattern. No allocation.
+  /// Errors: not_solvable (not positive definite).
+  Status factorize(const BlockMatrix& matrix);
+
+  /// Solves in place for `columns` right-hand sides of `rows()` entries each, one after the other.
+  /// No allocation for up to three columns at a time (more are done in turns).
+  void solve(double* x, int columns);
+
+  Index rows() const { return nodes_ * block_; }
+  /// Scalars stored in L, padding of the dense fronts included.
+  std::size_t factor_size() const { return factor_size_; }
+
+  static constexpr std::size_t max_bytes = std::size_t{1} << 30;
+
+ private:
+  /// Columns [first, first + width) in elimination order; `rows` are the nodes below them.
+  struct Supernode {
+    Index first = 0;
+    Index width = 0;
+    Index parent = -1;
+    std::vector<Index> rows;             ///< permuted node ids, ascending
+    std::vector<Index> parent_position;  ///< of each row: node position in the parent's front
+    std::size_t factor = 0;              ///< offset of its panel in factor_
+    Index height() const { return width + static_cast<Index>(rows.size()); }
+  };
+  /// Where a block of the matrix lands: front position of its row and column, transposed or not.
+  struct Entry {
+    Index source;  ///< edge, or -1 - node for a diagonal block
+    Index row, column;
+    bool transposed;
+  };
+
+  void order(const BlockMatrix& matrix);
+  void find_supernodes(const std::vector<std::vector<Index>>& structure,
+                       const std::vector<Index>& parent);
+  void link_supernodes();
+  void place_entries(const BlockMatrix& matrix);
+  std::size_t stack_size() const;
+  void assemble(const BlockMatrix& matrix, std::size_t supernode, double* front) const;
+  template <int Columns>
+  void solve_some(double* x);
+
+  int block_ = 1;
+  Index nodes_ = 0;
+  std::vector<Index> position_;  ///< node -> place in elimination order
+  std::vector<Supernode> supernodes_;
+  std::vector<Index> supernode_of_;  ///< place -> supernode
+  std::vector<std::vector<Entry>> entries_;
+  std::vector<double> factor_;
+  std::vector<double> stack_;
+  std::vector<Index> waiting_;  ///< supernodes whose update matrix is on stack_
+  std::vector<double> work_;
+  std::vector<double> gathered_;
+  std::size_t factor_size_ = 0;
+};
+
+}  // namespace pliant
