@@ -54,7 +54,7 @@ function fileFor(folder, url) {
   return statSync(file, { throwIfNoEntry: false })?.isFile() ? file : null;
 }
 
-export function serve(folder) {
+function serve(folder) {
   return createServer((request, response) => {
     if (request.method !== "GET" && request.method !== "HEAD") {
       response.writeHead(405, { Allow: "GET, HEAD" }).end();
@@ -94,6 +94,8 @@ async function listenSomewhere(server, { port, chosen, host }) {
   }
 }
 
+const nameOf = (host) => (host === "127.0.0.1" ? "localhost" : host.includes(":") ? `[${host}]` : host);
+
 /** Opens the page where there is a desktop to open it on. */
 function openBrowser(address) {
   if (!process.env.DISPLAY && !process.env.WAYLAND_DISPLAY) return;
@@ -105,8 +107,7 @@ await main(async (args) => {
   await build();
   const server = serve(join(root, "dist/demo"));
   const port = await listenSomewhere(server, options);
-  const loopback = options.host === "127.0.0.1" || options.host === "::1";
-  const address = `http://${loopback ? "localhost" : options.host}:${port}/`;
+  const address = `http://${nameOf(options.host)}:${port}/`;
   console.log(`\nThe demo is at ${address}  (Ctrl+C ends)`);
   if (options.open) openBrowser(address);
   const end = () => server.close(() => process.exit(0)).closeAllConnections?.();
