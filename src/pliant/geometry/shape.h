@@ -1,5 +1,6 @@
-// The checked door for all input: meshes of any kind, polygon soup, points without faces, the plane.
-// Behind it positions are finite, indices in range and duplicates welded; later code only asserts.
+// The checked door for all input: meshes of any kind, polygon soup, points without faces, the
+// plane. Behind it positions are finite, indices in range and duplicates welded; later code only
+// asserts.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace pliant {
 struct ShapeReport {
   Index vertices = 0;              ///< vertices of the input
   Index triangles = 0;             ///< triangles of the input, degenerate ones included
-  Index components = 0;            ///< connected through shared points; an isolated point is one
+  Index components = 0;            ///< connected through shared edges; an isolated point is one
   Index boundary_edges = 0;        ///< edges with one triangle
   Index non_manifold_edges = 0;    ///< edges with more than two triangles
   Index degenerate_triangles = 0;  ///< fewer than three distinct points, or no area
@@ -30,13 +31,22 @@ class Shape {
   /// Checks and welds.
   /// positions: dimension * n coordinates, vertex by vertex. triangles: 3 * m vertex ids, or none.
   /// dimension: 3, or 2 for the plane (points get z = 0).
-  /// Errors: invalid_shape (no vertices, length not a multiple, non-finite, index out of range),
-  /// too_large (more vertices than max_vertices).
+  /// Errors: invalid_shape (no vertices, length not a multiple, non-finite, beyond max_coordinate,
+  /// smaller than min_extent, index out of range), too_large (more than max_vertices or
+  /// max_triangles).
   static Result<std::shared_ptr<const Shape>> create(std::span<const double> positions,
                                                      std::span<const std::uint32_t> triangles,
                                                      int dimension = 3);
 
   static constexpr Index max_vertices = 8'000'000;
+  static constexpr Index max_triangles = 4 * max_vertices;
+  /// Within these bounds no area, volume or product of two of them overflows or vanishes, so that
+  /// nothing behind the door has to care. min_extent: of the longest side of the bounding box,
+  /// unless all points coincide.
+  static constexpr double max_coordinate = 1e30;
+  static constexpr double min_extent = 1e-30;
+  /// A triangle whose shortest height is below this part of the diagonal counts as having no area.
+  static constexpr double no_height = 1e-12;
 
   int dimension() const { return dimension_; }
   Index input_size() const { return static_cast<Index>(point_of_vertex_.size()); }
@@ -58,6 +68,9 @@ class Shape {
 
  private:
   Shape() = default;
+  void weld(std::span<const double> positions);
+  void keep_triangles(std::span<const std::uint32_t> triangles);
+  void fill_report(Index input_triangles);
 
   int dimension_ = 3;
   Points points_;

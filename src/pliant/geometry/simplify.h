@@ -10,14 +10,15 @@
 namespace pliant {
 
 struct SimplifyOptions {
-  Index target_points = 250;      ///< points to keep, at least 4
-  double max_aspect_ratio = 5.0;  ///< longest edge over shortest height; a collapse may not exceed it
+  Index target_points = 250;  ///< points to keep, at least 4
+  double max_aspect_ratio =
+      5.0;  ///< longest edge over shortest height; a collapse may not exceed it
 };
 
 /// Points of the shape that survive simplification to exactly `target_points`, ascending ids
-/// (every survivor is a point of the input: half-edge collapses). Several components, boundaries and
-/// non-manifold edges are accepted; the aspect limit is relaxed step by step where it would stop
-/// before the target. Errors: invalid_option (target out of range, shape without triangles).
+/// (every survivor is a point of the input: half-edge collapses). Several components, boundaries
+/// and non-manifold edges are accepted; the aspect limit is relaxed step by step where it would
+/// stop before the target. Errors: invalid_option (target out of range, shape without triangles).
 Result<std::vector<Index>> simplify(const Shape& shape, const SimplifyOptions& options);
 
 }  // namespace pliant

@@ -1,0 +1,76 @@
+// Who touches whom: triangles around points, unique edges with their triangles, components.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+/// Rows of varying length in two flat arrays: row i is items[offsets[i]] .. items[offsets[i + 1] -
+/// 1].
+struct Incidence {
+  std::vector<Index> offsets = {0};  ///< rows + 1
+  std::vector<Index> items;
+
+  Index rows() const { return static_cast<Index>(offsets.size()) - 1; }
+  std::span<const Index> row(Index i) const {
+    return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+  }
+};
+
+/// Row p: the triangles with corner p, ascending. `triangles`: three distinct points each, ids
+/// below `points`.
+Incidence triangles_of_points(const Triangles& triangles, Index points);
+
+/// Calls visit(a, b, span of triangles, ascending) once an edge, a < b, edges in ascending order.
+/// `around`: triangles_of_points of the same triangles.
+template <class Visit>
+void for_each_edge(const Triangles& triangles, const Incidence& around, Visit&& visit) {
+  std::vector<std::pair<Index, Index>> ends;  // (other end, triangle)
+  std::vector<Index> sharing;
+  for (Index a = 0; a < around.rows(); ++a) {
+    ends.clear();
+    for (const Index t : around.row(a)) {
+      for (const Index b : triangles.col(t)) {
+        if (b > a) {
+          ends.emplace_back(b, t);
+        }
+      }
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 0; i < ends.size();) {
+      const Index b = ends[i].first;
+      sharing.clear();
+      for (; i < ends.size() && ends[i].first == b; ++i) {
+        sharing.push_back(ends[i].second);
+      }
+      visit(a, b, std::span<const Index>(sharing));
+    }
+  }
+}
+
+/// Every edge once, with the triangles it belongs to.
+struct EdgeTable {
+  std::vector<std::array<Index, 2>> ends;  ///< a < b, ascending
+  Incidence triangles;                     ///< row e: triangles of edge e, ascending
+
+  Index size() const { return static_cast<Index>(ends.size()); }
+};
+
+EdgeTable unique_edges(const Triangles& triangles, Index points);
+
+/// Parts connected through shared edges (two parts that touch at a point only stay two); a point
+/// without triangles is a part of its own.
+struct Components {
+  Index count = 0;
+  std::vector<Index> of_triangle;  ///< 0 .. , in order of the first triangle of each
+};
+
+Components connected_components(const Triangles& triangles, const Incidence& around);
+
+}  // namespace pliant
