@@ -8,8 +8,9 @@ namespace pliant {
 /// The rotation closest to a matrix in the Frobenius norm (polar factor with determinant +1).
 Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& matrix);
 
-/// The rigid motion that takes `from` to `to` (3 x n each) best in the least-squares sense (Kabsch).
-/// Where the points leave the turn open (one point, or all on a line) it is the smallest one.
+/// The rigid motion that takes `from` to `to` (3 x n each) best in the least-squares sense
+/// (Kabsch). Where the points leave the turn open (one point, or all on a line) it is the smallest
+/// one.
 RigidMotion fit_rigid_motion(const Points& from, const Points& to);
 
 }  // namespace pliant

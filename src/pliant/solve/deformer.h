@@ -120,8 +120,12 @@ class Deformer {
   std::shared_ptr<const Shape> shape_;
   std::vector<Index> fixed_points_;
   std::vector<Handle> handles_;
-  /// Of each handle, the caller's list: target columns to keep for each point.
-  std::vector<std::vector<Index>> kept_columns_;
+  /// How the columns of a caller's target list belong to the points of a handle.
+  struct Columns {
+    Index given;              ///< length of the caller's list
+    std::vector<Index> kept;  ///< column of each point: copies at one position stand for one point
+  };
+  std::vector<Columns> columns_;  ///< beside handles_
   HandleId next_id_ = 1;
 };
 

@@ -1,0 +1,342 @@
+#include "pliant/deformers/embedded_graph/energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant::embedded {
+namespace {
+
+/// The six conditions of eq. 5 on R = I + U: c1.c2, c1.c3, c2.c3, and c_i.c_i - 1.
+using Conditions = std::array<double, 6>;
+constexpr int kPairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {0, 0}, {1, 1}, {2, 2}};
+
+/// In displacements, so that conditions near rest keep their digits.
+Conditions conditions(const Eigen::Matrix3d& u) {
+  Conditions f;
+  for (int q = 0; q < 6; ++q) {
+    const auto [a, b] = kPairs[q];
+    f[q] = u(a, b) + u(b, a) + u.col(a).dot(u.col(b));
+  }
+  return f;
+}
+
+/// Derivatives of the conditions at R along D.
+Conditions conditions_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
+  Conditions f;
+  for (int q = 0; q < 6; ++q) {
+    const auto [a, b] = kPairs[q];
+    f[q] = r.col(a).dot(d.col(b)) + r.col(b).dot(d.col(a));
+  }
+  return f;
+}
+
+/// Their second-order part along D.
+Conditions conditions_across(const Eigen::Matrix3d& d) {
+  Conditions f;
+  for (int q = 0; q < 6; ++q) f[q] = d.col(kPairs[q][0]).dot(d.col(kPairs[q][1]));
+  return f;
+}
+
+void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d& columns,
+               double w) {
+  Eigen::Map<Eigen::Matrix4d>(block) += w * rows * columns.transpose();
+}
+
+}  // namespace
+
+double Quartic::first_minimum() const {
+  // Newton on the derivative from the left, safeguarded by a bracket. The derivative starts below
+  // zero and its leading coefficient is not negative, so it crosses zero unless the course is flat.
+  auto slope = [&](double a) { return c[1] + a * (2 * c[2] + a * (3 * c[3] + a * 4 * c[4])); };
+  auto curvature = [&](double a) { return 2 * c[2] + a * (6 * c[3] + a * 12 * c[4]); };
+  if (!(c[1] < 0.0)) return 0.0;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; slope(high) < 0.0; ++i) {
+    if (i == 60) return 0.0;
+    low = high;
+    high *= 2.0;
+  }
+  double alpha = high;
+  for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
+    const double s = slope(alpha);
+    (s < 0.0 ? low : high) = alpha;
+    const double curved = curvature(alpha);
+    const double newton = curved > 0.0 ? alpha - s / curved : low;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (next == alpha) break;
+    alpha = next;
+  }
+  return alpha;
+}
+
+void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
+                         const Points& constrained, const Influences& influences,
+                         const Weights& weights) {
+  weights_ = weights;
+  all_nodes_ = graph.size();
+  const Points g = graph.scaled(graph.nodes);
+  std::vector<Index> free_of_node(graph.size(), -1);
+  node_of_free_.clear();
+  for (Index j = 0; j < graph.size(); ++j) {
+    if (frozen[j]) continue;
+    free_of_node[j] = free_nodes();
+    node_of_free_.push_back(j);
+  }
+
+  edges_.clear();
+  free_edges_.clear();
+  free_edge_index_.clear();
+  for (const auto& [j, k] : graph.edges) {
+    if (frozen[j] && frozen[k]) continue;  // at rest on both ends: no energy
+    edges_.push_back({free_of_node[j], free_of_node[k], g.col(k) - g.col(j)});
+    const bool is_free = !frozen[j] && !frozen[k];
+    free_edge_index_.push_back(is_free ? static_cast<Index>(free_edges_.size()) : -1);
+    if (is_free) free_edges_.push_back({free_of_node[j], free_of_node[k]});
+  }
+
+  influences_.clear();
+  constraint_start_.assign(1, 0);
+  for (Index l = 0; l < constrained.cols(); ++l) {
+    for (int s = 0; s < influences.k; ++s) {
+      const std::size_t at = static_cast<std::size_t>(l) * influences.k + s;
+      const Index node = influences.indices[at];
+      const double w = influences.weights[at];
+      if (frozen[node] || w == 0.0) continue;
+      Influence influence{free_of_node[node], {}};
+      influence.coefficients << w * (constrained.col(l) - g.col(node)), w;
+      influences_.push_back(influence);
+    }
+    constraint_start_.push_back(influences_.size());
+  }
+  targets_ = Points::Zero(3, constrained.cols());
+  reg_.resize(3, 2 * static_cast<Index>(edges_.size()));
+  con_.resize(3, constrained.cols());
+  reg_along_.resizeLike(reg_);
+  con_along_.resizeLike(con_);
+}
+
+void GraphEnergy::set_targets(const Points& displacements) { targets_ = displacements; }
+
+Eigen::Matrix3d GraphEnergy::displacement_gradient(const Vector& x, Index j) const {
+  Eigen::Matrix3d u;
+  for (int a = 0; a < 3; ++a) u.row(a) = Eigen::Map<const Eigen::RowVector3d>(entry(x, a, j));
+  return u;
+}
+
+Eigen::Vector3d GraphEnergy::translation(const Vector& x, Index j) const {
+  return {entry(x, 0, j)[3], entry(x, 1, j)[3], entry(x, 2, j)[3]};
+}
+
+void GraphEnergy::linear_residuals(const Vector& x, Points& reg, Points& con) const {
+  // Eq. 7 in displacements: R_j (g_k - g_j) + g_j + t_j - g_k - t_k = U_j d + t_j - t_k.
+  static constexpr double kAtRest[4] = {0, 0, 0, 0};
+  for (int a = 0; a < 3; ++a) {
+    const double* part = x.data() + a * rows();
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const FreeEdge& edge = edges_[e];
+      const double* j = edge.j < 0 ? kAtRest : part + 4 * edge.j;
+      const double* k = edge.k < 0 ? kAtRest : part + 4 * edge.k;
+      const double shift = j[3] - k[3];
+      reg(a, 2 * e) = j[0] * edge.d[0] + j[1] * edge.d[1] + j[2] * edge.d[2] + shift;
+      reg(a, 2 * e + 1) = -(k[0] * edge.d[0] + k[1] * edge.d[1] + k[2] * edge.d[2]) - shift;
+    }
+    // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
+    for (Index l = 0; l < con.cols(); ++l) {
+      double sum = 0.0;
+      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+        const double* n = part + 4 * influences_[i].node;
+        const Eigen::Vector4d& w = influences_[i].coefficients;
+        sum += w[0] * n[0] + w[1] * n[1] + w[2] * n[2] + w[3] * n[3];
+      }
+      con(a, l) = sum;
+    }
+  }
+}
+
+double GraphEnergy::rotation_term(const Vector& x, Index j) const {
+  double sum = 0.0;
+  for (double f : conditions(displacement_gradient(x, j))) sum += f * f;
+  return sum;
+}
+
+double GraphEnergy::rotation_terms(const Vector& x) const {
+  double sum = 0.0;
+  for (Index j = 0; j < free_nodes(); ++j) sum += rotation_term(x, j);
+  return sum;
+}
+
+void GraphEnergy::evaluate(const Vector& x) {
+  linear_residuals(x, reg_, con_);
+  con_ -= targets_;
+  terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
+}
+
+void GraphEnergy::advance(double alpha, const Vector& x) {
+  reg_ += alpha * reg_along_;
+  con_ += alpha * con_along_;
+  terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
+}
+
+void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
+                             std::vector<double>& regularization) const {
+  rotation.assign(all_nodes_, 0.0);
+  regularization.assign(all_nodes_, 0.0);
+  for (Index j = 0; j < free_nodes(); ++j) rotation[node_of_free_[j]] = rotation_term(x, j);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [j, k, d] = edges_[e];
+    if (j >= 0) regularization[node_of_free_[j]] += reg_.col(2 * e).squaredNorm();
+    if (k >= 0) regularization[node_of_free_[k]] += reg_.col(2 * e + 1).squaredNorm();
+  }
+}
+
+void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
+  gradient.setZero(3 * rows());
+  for (int a = 0; a < 3; ++a) {
+    double* part = gradient.data() + a * rows();
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const FreeEdge& edge = edges_[e];
+      const double forth = weights_.regularization * reg_(a, 2 * e);
+      const double back = weights_.regularization * reg_(a, 2 * e + 1);
+      if (edge.j >= 0) {
+        double* j = part + 4 * edge.j;
+        for (int c = 0; c < 3; ++c) j[c] += forth * edge.d[c];
+        j[3] += forth - back;
+      }
+      if (edge.k >= 0) {
+        double* k = part + 4 * edge.k;
+        for (int c = 0; c < 3; ++c) k[c] -= back * edge.d[c];
+        k[3] += back - forth;
+      }
+    }
+    for (Index l = 0; l < con_.cols(); ++l) {
+      const double r = weights_.constraint * con_(a, l);
+      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+        double* n = part + 4 * influences_[i].node;
+        for (int c = 0; c < 4; ++c) n[c] += r * influences_[i].coefficients[c];
+      }
+    }
+  }
+  for (Index j = 0; j < free_nodes(); ++j) {
+    const Eigen::Matrix3d u = displacement_gradient(x, j);
+    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + u;
+    const Conditions f = conditions(u);
+    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();  // of half of Rot(R), by columns
+    for (int q = 0; q < 6; ++q) {
+      const auto [a, b] = kPairs[q];
+      g.col(a) += f[q] * r.col(b);
+      g.col(b) += f[q] * r.col(a);
+    }
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 3; ++c) entry(gradient, a, j)[c] += weights_.rotation * g(a, c);
+    }
+  }
+}
+
+Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
+  linear_residuals(d, reg_along_, con_along_);
+  Quartic course;
+  auto& c = course.c;
+  c[0] = total();
+  c[1] = 2.0 * (weights_.regularization * reg_.cwiseProduct(reg_along_).sum() +
+                weights_.constraint * con_.cwiseProduct(con_along_).sum());
+  c[2] = weights_.regularization * reg_along_.squaredNorm() +
+         weights_.constraint * con_along_.squaredNorm();
+  for (Index j = 0; j < free_nodes(); ++j) {
+    const Eigen::Matrix3d u = displacement_gradient(x, j), step = displacement_gradient(d, j);
+    const Conditions f0 = conditions(u), f2 = conditions_across(step);
+    const Conditions f1 = conditions_along(Eigen::Matrix3d::Identity() + u, step);
+    for (int q = 0; q < 6; ++q) {
+      c[1] += weights_.rotation * 2.0 * f0[q] * f1[q];
+      c[2] += weights_.rotation * (f1[q] * f1[q] + 2.0 * f0[q] * f2[q]);
+      c[3] += weights_.rotation * 2.0 * f1[q] * f2[q];
+      c[4] += weights_.rotation * f2[q] * f2[q];
+    }
+  }
+  return course;
+}
+
+void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
+  matrix.set_zero(4, free_nodes(), free_edges_);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const FreeEdge& edge = edges_[e];
+    const double w = weights_.regularization;
+    // U_j d + t_j - t_k and -U_k d + t_k - t_j.
+    Eigen::Vector4d jj, kk;
+    const Eigen::Vector4d shift(0, 0, 0, -1);
+    jj << edge.d, 1.0;
+    kk << -edge.d, 1.0;
+    if (edge.j >= 0) {
+      add_outer(matrix.diagonal_block(edge.j), jj, jj, w);
+      add_outer(matrix.diagonal_block(edge.j), shift, shift, w);
+    }
+    if (edge.k >= 0) {
+      add_outer(matrix.diagonal_block(edge.k), kk, kk, w);
+      add_outer(matrix.diagonal_block(edge.k), shift, shift, w);
+    }
+    if (free_edge_index_[e] >= 0) {
+      add_outer(matrix.edge_block(free_edge_index_[e]), shift, jj, w);
+      add_outer(matrix.edge_block(free_edge_index_[e]), kk, shift, w);
+    }
+  }
+  for (std::size_t l = 0; l + 1 < constraint_start_.size(); ++l) {
+    for (std::size_t p = constraint_start_[l]; p < constraint_start_[l + 1]; ++p) {
+      const Influence& one = influences_[p];
+      add_outer(matrix.diagonal_block(one.node), one.coefficients, one.coefficients,
+                weights_.constraint);
+      for (std::size_t q = constraint_start_[l]; q < p; ++q) {
+        const Influence& two = influences_[q];
+        const auto [low, high] = std::minmax(one.node, two.node);
+        const auto found =
+            std::lower_bound(free_edges_.begin(), free_edges_.end(), Edge{low, high});
+        const bool one_is_high = one.node == high;
+        add_outer(matrix.edge_block(found - free_edges_.begin()),
+                  one_is_high ? one.coefficients : two.coefficients,
+                  one_is_high ? two.coefficients : one.coefficients, weights_.constraint);
+      }
+    }
+  }
+}
+
+void GraphEnergy::translation_rhs(const Points& values, Vector& rhs) const {
+  rhs.setZero();
+  for (int a = 0; a < 3; ++a) {
+    double* part = rhs.data() + a * free_nodes();
+    for (Index l = 0; l < values.cols(); ++l) {
+      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+        part[influences_[i].node] +=
+            weights_.constraint * influences_[i].coefficients[3] * values(a, l);
+      }
+    }
+  }
+}
+
+void GraphEnergy::gauss_newton_matrix(const Vector& x, const BlockMatrix& constant,
+                                      BlockMatrix& matrix) const {
+  if (matrix.block != 12 || matrix.nodes != free_nodes())
+    matrix.set_zero(12, free_nodes(), free_edges_);
+  using Block = Eigen::Matrix<double, 12, 12>;
+  auto expand = [](const double* from, double* to) {
+    Eigen::Map<Block> block(to);
+    block.setZero();
+    for (int a = 0; a < 3; ++a)
+      block.block<4, 4>(4 * a, 4 * a) = Eigen::Map<const Eigen::Matrix4d>(from);
+  };
+  for (std::size_t e = 0; e < free_edges_.size(); ++e)
+    expand(constant.edge_block(e), matrix.edge_block(e));
+  for (Index j = 0; j < free_nodes(); ++j) {
+    expand(constant.diagonal_block(j), matrix.diagonal_block(j));
+    Eigen::Map<Block> block(matrix.diagonal_block(j));
+    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + displacement_gradient(x, j);
+    for (const auto& [a, b] : kPairs) {
+      // The gradient of one condition: r_b in column a of R, r_a in column b.
+      Eigen::Matrix<double, 12, 1> g = Eigen::Matrix<double, 12, 1>::Zero();
+      for (int row = 0; row < 3; ++row) {
+        g[4 * row + a] += r(row, b);
+        g[4 * row + b] += r(row, a);
+      }
+      block.noalias() += weights_.rotation * g * g.transpose();
+    }
+  }
+}
+
+}  // namespace pliant::embedded

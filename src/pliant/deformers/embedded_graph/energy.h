@@ -1,0 +1,128 @@
+// The energy of the embedded deformation graph (Sumner 2007, eq. 5-9) over its free nodes, its
+// derivatives, and its exact course along a direction.
+//
+// Everything happens in the solver's frame (centred, one length unit = one mean edge) and in
+// displacements from rest: node j has U_j = R_j - I and t_j, so that rest is exactly zero. E_reg
+// and E_con are quadratic and alike for x, y and z; only E_rot, inside one node, couples them. So
+// the unknowns are three vectors of four numbers a free node: x[a][j] = (row a of U_j, t_j[a]).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pliant/deformers/embedded_graph/graph.h"
+#include "pliant/linalg/block_matrix.h"
+
+namespace pliant::embedded {
+
+using Vector = Eigen::VectorXd;
+
+struct Weights {
+  double rotation = 1.0;
+  double regularization = 10.0;
+  double constraint = 100.0;
+};
+
+/// Unweighted terms.
+struct Terms {
+  double rotation = 0.0;
+  double regularization = 0.0;
+  double constraint = 0.0;
+
+  double total(const Weights& w) const {
+    return w.rotation * rotation + w.regularization * regularization + w.constraint * constraint;
+  }
+};
+
+/// F(x + alpha d) = sum of c[i] alpha^i: E_rot is quartic along a line, the others quadratic.
+struct Quartic {
+  std::array<double, 5> c{};
+  double value(double alpha) const {
+    return c[0] + alpha * (c[1] + alpha * (c[2] + alpha * (c[3] + alpha * c[4])));
+  }
+  /// Smallest alpha > 0 at which the function stops falling; c[1] < 0. 0 where it never falls.
+  double first_minimum() const;
+};
+
+class GraphEnergy {
+ public:
+  /// constrained: scaled rest positions of the constrained points with their influences.
+  /// frozen: nodes that stay at rest (they leave the unknowns). Keeps references to nothing.
+  void set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
+              const Points& constrained, const Influences& influences, const Weights& weights);
+  /// Displacements from rest that the constrained points should have, 3 x c.
+  void set_targets(const Points& displacements);
+
+  Index free_nodes() const { return static_cast<Index>(node_of_free_.size()); }
+  Index unknowns() const { return 12 * free_nodes(); }
+  Index rows() const { return 4 * free_nodes(); }  ///< length of one of the three parts of x
+  const std::vector<Index>& node_of_free() const { return node_of_free_; }
+  const std::vector<Edge>& free_edges() const { return free_edges_; }
+  const Weights& weights() const { return weights_; }
+
+  /// Moves to x: residuals and terms from scratch.
+  void evaluate(const Vector& x);
+  /// Moves on along the direction last given to `along`.
+  void advance(double alpha, const Vector& x);
+  const Terms& terms() const { return terms_; }
+  double total() const { return terms_.total(weights_); }
+  /// Terms of every node of the graph: its rotation, and its directed edges' regularisation.
+  void node_terms(const Vector& x, std::vector<double>& rotation,
+                  std::vector<double>& regularization) const;
+
+  /// Half the gradient of F at the current x.
+  void half_gradient(const Vector& x, Vector& gradient) const;
+  /// The course of F from the current x along d.
+  Quartic along(const Vector& x, const Vector& d);
+
+  /// The constant part of half the Hessian, one 4 x 4 block a free node or edge, the same for x, y
+  /// and z: w_reg A'A + w_con C'C.
+  void constant_matrix(BlockMatrix& matrix) const;
+  /// Right-hand side of fitting a field to values at the constraints (3 x c) in the least-squares
+  /// sense, w_con W' values, one part of free_nodes() numbers after the other.
+  void translation_rhs(const Points& values, Vector& rhs) const;
+  /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry.
+  void gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const;
+
+  /// Displaced positions minus targets of the constrained points at the current x, 3 x c.
+  const Points& constraint_residuals() const { return con_; }
+
+  // The four numbers of row a of free node j.
+  double* entry(Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
+  const double* entry(const Vector& x, int a, Index j) const {
+    return x.data() + a * rows() + 4 * j;
+  }
+  Eigen::Matrix3d displacement_gradient(const Vector& x, Index free_node) const;  ///< U_j
+  Eigen::Vector3d translation(const Vector& x, Index free_node) const;            ///< t_j
+
+ private:
+  /// Both directed residuals of an undirected edge; -1 for a frozen end.
+  struct FreeEdge {
+    Index j, k;
+    Eigen::Vector3d d;  ///< g_k - g_j
+  };
+  /// One influence of a constraint: (w (v - g), w) on a free node.
+  struct Influence {
+    Index node;
+    Eigen::Vector4d coefficients;
+  };
+
+  void linear_residuals(const Vector& x, Points& reg, Points& con) const;
+  double rotation_term(const Vector& x, Index free_node) const;  ///< Rot(R_j), eq. 5
+  double rotation_terms(const Vector& x) const;                  ///< eq. 6
+
+  Weights weights_;
+  std::vector<Index> node_of_free_;
+  Index all_nodes_ = 0;
+  std::vector<FreeEdge> edges_;
+  std::vector<Edge> free_edges_;        ///< those of edges_ with two free ends
+  std::vector<Index> free_edge_index_;  ///< of each of edges_, or -1
+  std::vector<Influence> influences_;
+  std::vector<std::size_t> constraint_start_;
+  Points targets_;
+  Points reg_, con_;              ///< residuals: two columns an edge; one a constraint
+  Points reg_along_, con_along_;  ///< their change along the last direction
+  Terms terms_;
+};
+
+}  // namespace pliant::embedded

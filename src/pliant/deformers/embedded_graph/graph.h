@@ -1,0 +1,48 @@
+// The deformation graph at rest: nodes, the influence of nodes on points, and the edges that follow
+// (Sumner 2007, section 3).
+#pragma once
+
+#include <vector>
+
+#include "pliant/core/status.h"
+#include "pliant/deformers/embedded_graph/options.h"
+#include "pliant/geometry/shape.h"
+#include "pliant/linalg/block_matrix.h"
+
+namespace pliant {
+
+/// The k nodes that move each point, and by how much: row i of `indices` and `weights` is point i.
+struct Influences {
+  int k = 0;
+  std::vector<Index> indices;   ///< p x k, nearest node first
+  std::vector<double> weights;  ///< p x k, each row sums to one (eq. 4)
+
+  Index size() const { return k == 0 ? 0 : static_cast<Index>(indices.size()) / k; }
+};
+
+/// What a cut makes of a node or point: 0 free, 1 side a, 2 side b.
+using CutSides = std::vector<unsigned char>;
+
+struct DeformationGraph {
+  Points nodes;              ///< g_j, 3 x m, input coordinates
+  Influences influences;     ///< of the points of the shape
+  std::vector<Edge> edges;   ///< nodes that influence a common point, j < k, sorted
+  double length_unit = 1.0;  ///< mean edge length: the energies are taken in this unit
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of the scene, for accuracy only
+  std::vector<CutSides> node_sides;                  ///< one list a cut
+
+  Index size() const { return static_cast<Index>(nodes.cols()); }
+  /// Input coordinates -> the solver's: centred, in length units.
+  Points scaled(const Points& points) const { return (points.colwise() - origin) / length_unit; }
+};
+
+/// Chooses nodes as the options say. The options are valid for the shape.
+Result<Points> place_nodes(const Shape& shape, const EmbeddedGraphOptions& options);
+
+/// Influences, edges and unit for given nodes (3 x m, m >= 1).
+DeformationGraph build_graph(const Shape& shape, Points nodes, const EmbeddedGraphOptions& options);
+
+/// Influences of a graph on any other points (3 x q), by the rules of its cuts.
+Influences compute_influences(const DeformationGraph& graph, const Points& points);
+
+}  // namespace pliant

@@ -1,0 +1,345 @@
+#include "pliant/deformers/embedded_graph/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "pliant/geometry/closest_rotation.h"
+
+namespace pliant::embedded {
+namespace {
+
+/// On the diagonal of every system: a component without a handle floats, and a path graph leaves
+/// the twist about its segments free. Small against entries of about 10 to 1000.
+constexpr double kDamping = 1e-6;
+/// What E_rot adds to the metric on the entries of R, times w_rot: between its curvature for a turn
+/// (none) and for a stretch (4).
+constexpr double kRotationMetric = 1.5;
+/// In exact mode the constraints are stiffer by this factor, so that the multipliers settle at
+/// once.
+constexpr double kExactStiffness = 100.0;
+/// Turns of the constraints below this (radians) need no prediction.
+constexpr double kSmallTurn = 0.05;
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+}
+
+Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+/// det(R + alpha D) = c0 + c1 alpha + c2 alpha^2 + c3 alpha^3.
+std::array<double, 4> determinant_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
+  auto mixed = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+    return a.col(0).dot(b.col(1).cross(b.col(2))) + b.col(0).dot(a.col(1).cross(b.col(2))) +
+           b.col(0).dot(b.col(1).cross(a.col(2)));
+  };
+  return {r.determinant(), mixed(d, r), mixed(r, d), d.determinant()};
+}
+
+Index find_root(std::vector<Index>& parent, Index j) {
+  while (parent[j] != j) j = parent[j] = parent[parent[j]];
+  return j;
+}
+
+}  // namespace
+
+Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
+                           Points constrained, const Influences& influences,
+                           const SolverOptions& options, const Pose& pose) {
+  options_ = options;
+  Weights weights = options.weights;
+  if (options.exact) weights.constraint *= kExactStiffness;
+  constrained_ = std::move(constrained);
+  displacement_ = Points::Zero(3, constrained_.cols());
+  shift_ = displacement_;
+  energy_.set_up(graph, frozen, constrained_, influences, weights);
+  const Points g = graph.scaled(graph.nodes);
+  nodes_ = g(Eigen::all, energy_.node_of_free());
+  extent_ = graph.size() > 0 ? (g.rowwise().maxCoeff() - g.rowwise().minCoeff()).norm() : 0.0;
+  find_components(graph, frozen, influences);
+
+  x_.resize(3 * energy_.rows());
+  for (Index j = 0; j < energy_.free_nodes(); ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c)
+        energy_.entry(x_, a, j)[c] = pose(4 * a + c, energy_.node_of_free()[j]);
+    }
+  }
+  for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
+  memory_.reset(x_.size());
+  if (energy_.free_nodes() == 0) return {};
+  return factorize_metric();
+}
+
+void GraphSolver::find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
+                                  const Influences& influences) {
+  std::vector<Index> parent(graph.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& [j, k] : graph.edges) {
+    if (!frozen[j] && !frozen[k]) parent[find_root(parent, j)] = find_root(parent, k);
+  }
+  std::vector<Index> label(graph.size(), -1);
+  component_.clear();
+  components_ = 0;
+  for (Index node : energy_.node_of_free()) {
+    Index& of_root = label[find_root(parent, node)];
+    if (of_root < 0) of_root = components_++;
+    component_.push_back(of_root);
+  }
+  anchored_.assign(components_, false);
+  for (const auto& [j, k] : graph.edges) {
+    if (frozen[j] != frozen[k]) anchored_[label[find_root(parent, frozen[j] ? k : j)]] = true;
+  }
+  constraint_component_.assign(constrained_.cols(), -1);
+  for (Index l = 0; l < constrained_.cols(); ++l) {
+    for (int s = 0; s < influences.k && constraint_component_[l] < 0; ++s) {
+      const Index node = influences.indices[static_cast<std::size_t>(l) * influences.k + s];
+      if (!frozen[node]) constraint_component_[l] = label[find_root(parent, node)];
+    }
+  }
+}
+
+Status GraphSolver::factorize_metric() {
+  energy_.constant_matrix(constant_);
+  translation_.set_zero(1, energy_.free_nodes(), energy_.free_edges());
+  BlockMatrix metric = constant_;
+  for (Index j = 0; j < metric.nodes; ++j) {
+    Eigen::Map<Eigen::Matrix4d> block(metric.diagonal_block(j));
+    translation_.diagonal[j] = block(3, 3) + kDamping;
+    block.diagonal().head<3>().array() += kRotationMetric * options_.weights.rotation;
+    block(3, 3) += kDamping;
+  }
+  for (std::size_t e = 0; e < metric.edges.size(); ++e)
+    translation_.off_diagonal[e] = metric.edge_block(e)[15];
+
+  const bool newton = options_.kind == EmbeddedGraphSolver::gauss_newton;
+  if (newton) energy_.gauss_newton_matrix(x_, constant_, newton_);
+  SparseCholesky& factor = newton ? newton_factor_ : metric_factor_;
+  if (Status s = factor.analyze(newton ? newton_ : metric); !s.ok()) return s;
+  if (Status s = translation_factor_.analyze(translation_); !s.ok()) return s;
+  ++analyses_;
+  if (Status s = translation_factor_.factorize(translation_); !s.ok()) return s;
+  if (newton) return {};
+  ++factorizations_;
+  return metric_factor_.factorize(metric);
+}
+
+void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& turns) {
+  displacement_ = targets - constrained_;
+  shift_.setZero();
+  last_violation_ = 0.0;
+  energy_.set_targets(displacement_);
+  energy_.evaluate(x_);
+  if (energy_.free_nodes() == 0) return;
+  const bool beyond_half_turn = std::any_of(turns.begin(), turns.end(), [](const Turn& t) {
+    return t.rotation.norm() > std::numbers::pi;
+  });
+  if (!beyond_half_turn) predict_rigid();
+  predict_turns(turns, beyond_half_turn);
+  energy_.half_gradient(x_, gradient_);
+}
+
+bool GraphSolver::keep_if_lower(double previous_total) {
+  energy_.evaluate(x_);
+  if (energy_.total() < previous_total) {
+    memory_.clear();
+    return true;
+  }
+  x_ = previous_;
+  energy_.evaluate(x_);
+  return false;
+}
+
+void GraphSolver::predict_rigid() {
+  // A component that nothing holds follows the best rigid motion of its handles at no cost.
+  const Points now = constrained_now();
+  previous_ = x_;
+  const double before = energy_.total();
+  bool moved = false;
+  for (Index c = 0; c < components_; ++c) {
+    std::vector<Index> members;
+    for (Index l = 0; l < now.cols(); ++l) {
+      if (constraint_component_[l] == c) members.push_back(l);
+    }
+    if (anchored_[c] || members.empty()) continue;
+    const Points wanted = constrained_ + displacement_;
+    const RigidMotion motion =
+        fit_rigid_motion(now(Eigen::all, members), wanted(Eigen::all, members));
+    moved = true;
+    for (Index j = 0; j < energy_.free_nodes(); ++j) {
+      if (component_[j] != c) continue;
+      const Eigen::Vector3d at = nodes_.col(j) + energy_.translation(x_, j);
+      const Eigen::Vector3d shift = motion.rotation * at + motion.translation - nodes_.col(j);
+      turn_node(j, motion.rotation);
+      for (int a = 0; a < 3; ++a) energy_.entry(x_, a, j)[3] = shift[a];
+    }
+  }
+  if (moved) keep_if_lower(before);
+}
+
+void GraphSolver::turn_node(Index j, const Eigen::Matrix3d& rotation) {
+  // U' = Q (I + U) - I, in displacements.
+  const Eigen::Matrix3d u = energy_.displacement_gradient(x_, j);
+  const Eigen::Matrix3d turned = rotation * u + (rotation - Eigen::Matrix3d::Identity());
+  for (int a = 0; a < 3; ++a) {
+    for (int c = 0; c < 3; ++c) energy_.entry(x_, a, j)[c] = turned(a, c);
+  }
+}
+
+void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
+  // The turns of the handles, spread over the graph as smoothly as its Laplacian can, give every
+  // node a rotation to start from; translations follow by one linear solve.
+  const Points now = constrained_now();
+  const Points wanted = constrained_ + displacement_;
+  Points rotations = Points::Zero(3, now.cols());
+  double largest = 0.0;
+  for (const Turn& turn : turns) {
+    // Where no turn is told beyond what the points show, the points know better: the shape may lag.
+    const RigidMotion fit =
+        fit_rigid_motion(now(Eigen::all, turn.constraints), wanted(Eigen::all, turn.constraints));
+    const Eigen::Vector3d rotation = as_told ? turn.rotation : rotation_vector_of(fit.rotation);
+    largest = std::max(largest, rotation.norm());
+    for (Index l : turn.constraints) rotations.col(l) = rotation;
+  }
+  if (largest < kSmallTurn) return;
+
+  previous_ = x_;
+  const double before = energy_.total();
+  energy_.translation_rhs(rotations, direction_);
+  const Index n = energy_.free_nodes();
+  translation_factor_.solve(direction_.data(), 3);
+  for (Index j = 0; j < n; ++j) {
+    turn_node(j, rotation_of({direction_[j], direction_[n + j], direction_[2 * n + j]}));
+  }
+  settle_translations();
+  if (as_told) {
+    // Targets alone cannot tell a turn from the same turn short of a full one: take it as told.
+    energy_.evaluate(x_);
+    memory_.clear();
+  } else {
+    keep_if_lower(before);
+  }
+}
+
+void GraphSolver::settle_translations() {
+  energy_.evaluate(x_);
+  energy_.half_gradient(x_, gradient_);
+  const Index n = energy_.free_nodes();
+  for (int a = 0; a < 3; ++a) {
+    for (Index j = 0; j < n; ++j) direction_[a * n + j] = energy_.entry(gradient_, a, j)[3];
+  }
+  translation_factor_.solve(direction_.data(), 3);
+  for (int a = 0; a < 3; ++a) {
+    for (Index j = 0; j < n; ++j) energy_.entry(x_, a, j)[3] -= direction_[a * n + j];
+  }
+}
+
+Status GraphSolver::find_direction() {
+  if (options_.kind == EmbeddedGraphSolver::automatic) {
+    memory_.direction(
+        gradient_, [this](Vector& d) { metric_factor_.solve(d.data(), 3); }, direction_);
+    return {};
+  }
+  energy_.gauss_newton_matrix(x_, constant_, newton_);
+  for (Index j = 0; j < newton_.nodes; ++j) {
+    for (int i = 0; i < 12; ++i) newton_.diagonal_block(j)[13 * i] += kDamping;
+  }
+  ++factorizations_;
+  if (Status s = newton_factor_.factorize(newton_); !s.ok()) return s;
+  for (Index j = 0; j < newton_.nodes; ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c) change_[12 * j + 4 * a + c] = -energy_.entry(gradient_, a, j)[c];
+    }
+  }
+  newton_factor_.solve(change_.data(), 1);
+  for (Index j = 0; j < newton_.nodes; ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c) energy_.entry(direction_, a, j)[c] = change_[12 * j + 4 * a + c];
+    }
+  }
+  return {};
+}
+
+double GraphSolver::largest_safe_step(double alpha) const {
+  // A node may lose four fifths of its determinant in a step, never change its sign.
+  for (Index j = 0; j < energy_.free_nodes(); ++j) {
+    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, j);
+    const auto c = determinant_along(r, energy_.displacement_gradient(direction_, j));
+    const double least = 0.2 * std::min(1.0, c[0]);
+    while (c[0] + alpha * (c[1] + alpha * (c[2] + alpha * c[3])) < least) alpha *= 0.7;
+  }
+  return alpha;
+}
+
+Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
+  if (energy_.free_nodes() == 0) return Outcome{false, true};
+  const double before = energy_.total();
+  if (Status s = find_direction(); !s.ok()) return s;
+  Quartic course = energy_.along(x_, direction_);
+  if (!(course.c[1] < 0.0) && !memory_.empty()) {
+    memory_.clear();
+    if (Status s = find_direction(); !s.ok()) return s;
+    course = energy_.along(x_, direction_);
+  }
+  const double alpha = largest_safe_step(course.first_minimum());
+  previous_ = x_;
+  step_ = alpha * direction_;
+  x_ += step_;
+  energy_.advance(alpha, x_);
+  if (!(alpha > 0.0) || !(energy_.total() < before)) {
+    x_ = previous_;
+    energy_.evaluate(x_);
+    return Outcome{false, !tighten()};
+  }
+  change_ = gradient_;
+  energy_.half_gradient(x_, gradient_);
+  change_ = gradient_ - change_;
+  memory_.remember(step_, change_);
+
+  // Eq. 12: change of the energy, gradient (twice our half) and step are all small.
+  const double f = energy_.total(), delta = step_.lpNorm<Eigen::Infinity>();
+  const bool small = before - f < tolerance * (1.0 + f) &&
+                     2.0 * gradient_.lpNorm<Eigen::Infinity>() < std::cbrt(tolerance) * (1.0 + f) &&
+                     delta < std::sqrt(tolerance) * (1.0 + delta);
+  return Outcome{true, small && !tighten()};
+}
+
+bool GraphSolver::tighten() {
+  // Method of multipliers: what is missing from a target is added to it. True while that helps.
+  if (!options_.exact || displacement_.cols() == 0) return false;
+  const double violation = (energy_.constraint_residuals() + shift_).colwise().norm().maxCoeff();
+  const bool met = violation <= 1e-10 * extent_;
+  const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
+  if (met || stuck) return false;
+  last_violation_ = violation;
+  shift_ = -energy_.constraint_residuals();
+  energy_.set_targets(displacement_ + shift_);
+  energy_.evaluate(x_);
+  energy_.half_gradient(x_, gradient_);
+  return true;
+}
+
+Terms GraphSolver::terms() const {
+  Terms terms = energy_.terms();
+  terms.constraint = (energy_.constraint_residuals() + shift_).squaredNorm();
+  return terms;
+}
+
+void GraphSolver::store(Pose& pose) const {
+  for (Index j = 0; j < energy_.free_nodes(); ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c)
+        pose(4 * a + c, energy_.node_of_free()[j]) = energy_.entry(x_, a, j)[c];
+    }
+  }
+}
+
+}  // namespace pliant::embedded

@@ -1,0 +1,100 @@
+// Minimises the energy of a deformation graph, one step at a time.
+//
+// The reference is the paper's Gauss-Newton (eq. 10-11), damped. The fast way uses that E_reg and
+// E_con are constant quadratics, alike for x, y and z: their matrix of 4 x 4 blocks is factorised
+// once a grab and serves as the metric of a quasi-Newton method on the same, exact energy. Both
+// take the exact minimum along their direction, and both keep det R > 0 at every node.
+#pragma once
+
+#include <vector>
+
+#include "pliant/core/status.h"
+#include "pliant/deformers/embedded_graph/energy.h"
+#include "pliant/deformers/embedded_graph/pose.h"
+#include "pliant/linalg/sparse_cholesky.h"
+#include "pliant/solve/lbfgs.h"
+
+namespace pliant::embedded {
+
+/// A handle's part in the constraints.
+struct Turn {
+  std::vector<Index> constraints;  ///< its columns of the constrained points
+  /// How far it turned since the last targets, axis times angle; matters beyond half a turn, which
+  /// the targets alone cannot show.
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
+};
+
+struct SolverOptions {
+  Weights weights;
+  EmbeddedGraphSolver kind = EmbeddedGraphSolver::automatic;
+  bool exact = false;  ///< meet the targets exactly where the graph can
+};
+
+class GraphSolver {
+ public:
+  /// A new set of constraints: columns of `constrained` (scaled rest positions) with their
+  /// influences, and frozen nodes. pose: of all nodes.
+  /// Factorises. Errors: too_large, not_solvable.
+  Status set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, Points constrained,
+                const Influences& influences, const SolverOptions& options, const Pose& pose);
+
+  /// New targets (3 x c, scaled). Starts from the present pose, turned along with the groups where
+  /// that lowers the energy.
+  void set_targets(const Points& targets, const std::vector<Turn>& turns);
+
+  struct Outcome {
+    bool accepted = false;
+    bool converged = false;
+  };
+  /// One iteration; eq. 12 with eps = tolerance decides `converged`. No allocation.
+  Result<Outcome> step(double tolerance);
+
+  const GraphEnergy& energy() const { return energy_; }
+  /// Terms against the caller's targets.
+  Terms terms() const;
+  const Vector& x() const { return x_; }
+  int factorizations() const { return factorizations_; }
+  int analyses() const { return analyses_; }
+  /// Writes the free nodes back.
+  void store(Pose& pose) const;
+
+ private:
+  void find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
+                       const Influences& influences);
+  Status factorize_metric();
+  void predict_rigid();
+  void predict_turns(const std::vector<Turn>& turns, bool as_told);
+  void turn_node(Index free_node, const Eigen::Matrix3d& rotation);
+  void settle_translations();
+  /// After x_ has changed from previous_: goes back unless the energy fell.
+  bool keep_if_lower(double previous_total);
+  Status find_direction();
+  double largest_safe_step(double alpha) const;
+  bool tighten();
+  /// Scaled positions of the constrained points.
+  Points constrained_now() const {
+    return constrained_ + displacement_ + shift_ + energy_.constraint_residuals();
+  }
+
+  SolverOptions options_;
+  GraphEnergy energy_;
+  Points nodes_;         ///< scaled rest positions of the free nodes
+  double extent_ = 0.0;  ///< scaled size of the graph
+  Points constrained_;   ///< scaled rest positions
+  Points displacement_;  ///< wanted, from rest
+  Points shift_;         ///< of the targets, accumulated: multipliers of the exact constraints
+  double last_violation_ = 0.0;
+  std::vector<Index> component_;  ///< of each free node, in the graph of free nodes
+  std::vector<bool> anchored_;    ///< components that touch a frozen node
+  std::vector<Index> constraint_component_;
+  Index components_ = 0;
+
+  Vector x_, gradient_, direction_, previous_, step_, change_;
+  BlockMatrix constant_, newton_, translation_;
+  SparseCholesky metric_factor_, newton_factor_, translation_factor_;
+  Lbfgs memory_;
+  int factorizations_ = 0;
+  int analyses_ = 0;
+};
+
+}  // namespace pliant::embedded

@@ -1,0 +1,19 @@
+// Carries points along with the graph (Sumner 2007, eq. 2 and 3).
+#pragma once
+
+#include "pliant/deformers/embedded_graph/graph.h"
+
+namespace pliant::embedded {
+
+/// Affine maps of the nodes, twelve doubles each, in the order the carrying loop wants them:
+/// (A00 A10)(A01 A11)(A02 A12)(b0 b1)(A20 A21)(A22 b2) for p -> A p + b.
+using PackedMaps = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+
+Eigen::Matrix<double, 12, 1> pack_map(const Eigen::Matrix3d& a, const Eigen::Vector3d& b);
+
+/// out_i = p_i + sum over the influences of w (A (p_i - origin) + b), for 3 x n points: maps are in
+/// displacements, so that points at rest come out bit for bit.
+void carry(const PackedMaps& maps, const Influences& influences, const Points& points,
+           const Eigen::Vector3d& origin, Points& out);
+
+}  // namespace pliant::embedded

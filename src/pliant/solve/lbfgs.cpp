@@ -1,0 +1,27 @@
+#include "pliant/solve/lbfgs.h"
+
+#include <algorithm>
+
+namespace pliant {
+
+void Lbfgs::reset(Eigen::Index n) {
+  used_ = 0;
+  newest_ = 0;
+  s_.assign(capacity_, Eigen::VectorXd::Zero(n));
+  y_.assign(capacity_, Eigen::VectorXd::Zero(n));
+  rho_.assign(capacity_, 0.0);
+  alpha_.assign(capacity_, 0.0);
+}
+
+void Lbfgs::remember(const Eigen::VectorXd& s, const Eigen::VectorXd& y) {
+  const double curvature = s.dot(y);
+  // Pairs without clear positive curvature would make the metric indefinite.
+  if (!(curvature > 1e-12 * s.norm() * y.norm())) return;
+  newest_ = (newest_ + 1) % capacity_;
+  used_ = std::min(used_ + 1, capacity_);
+  s_[newest_] = s;
+  y_[newest_] = y;
+  rho_[newest_] = 1.0 / curvature;
+}
+
+}  // namespace pliant
