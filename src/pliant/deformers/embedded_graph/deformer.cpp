@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "pliant/deformers/embedded_graph/graph.h"
