@@ -1,0 +1,311 @@
+// Deformers: a shape, constraints on it, and a method that finds the deformation.
+
+import { coordinates, fields, type FloatArray, integer, output, Place, positive, toSpace, vertexIds } from "./check.js";
+import { accept, build, type Core, disposeSymbol, Owned } from "./core.js";
+import { PliantError } from "./errors.js";
+import { Handle } from "./handle.js";
+import { type DeformerOptions, type Method, type Options, readMethod, readOptions } from "./methods/index.js";
+import type { RawDeformer } from "./raw.js";
+import { Shape } from "./shape.js";
+import { readTables, type State, toState, writeTables } from "./state.js";
+
+/** What one iteration did. */
+export interface Step {
+  /** Accepted iterations since the constraints last changed. */
+  iteration: number;
+  /** The weighted sum of the terms, after the step. */
+  energy: number;
+  /** Each term, unweighted. */
+  terms: Record<string, number>;
+  /** Whether the method's own test holds. */
+  converged: boolean;
+  /** False when no step lowers the energy any more. */
+  accepted: boolean;
+  milliseconds: number;
+}
+
+/** What a solve did: its last step, and how many it took in all. */
+export interface Solution extends Step {
+  iterations: number;
+}
+
+export interface StepOptions {
+  /** Of the method's own test: 1e-6. */
+  tolerance?: number;
+}
+
+export interface SolveOptions extends StepOptions {
+  /** 100. */
+  maxIterations?: number;
+  signal?: AbortSignal;
+  /** Called after every iteration. */
+  onProgress?: (step: Step) => void;
+}
+
+/** What solving has cost so far. */
+export interface Counters {
+  unknowns: number;
+  factorizations: number;
+  analyses: number;
+}
+
+const pointsPerCall = 1 << 16;
+
+/** Made by `pliant.deformer`. Vertex ids are the input's; results are copies, in the input's order. */
+export class Deformer {
+  readonly shape: Shape;
+  readonly method: string;
+  readonly #owned: Owned<RawDeformer>;
+  readonly #method: Method;
+  readonly #options: Options;
+  readonly #handles = new Map<number, Handle>();
+  #refined = false;
+
+  /** @internal */
+  constructor(core: Core, shape: Shape, options: DeformerOptions) {
+    const place = new Place("invalid-option", "options");
+    if (!(shape instanceof Shape)) new Place("invalid-option", "shape").fail(shape, "a Shape of this package");
+    if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
+    const extent = { count: shape.report.vertices, dimension: shape.dimension };
+    this.shape = shape;
+    this.#method = readMethod(place.at("method"), options.method);
+    this.method = this.#method.name;
+    this.#options = readOptions(place, options, this.#method, extent, ["method"]);
+    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) =>
+      this.#method.build(core, unbuilt, shape, this.#options, place));
+    this.#owned = new Owned(core, raw, this, "deformer");
+  }
+
+  // -- On grab: the next step factorises. -----------------------------------------------------------
+
+  /** Replaces the fixed region; no vertices: none. Errors: invalid-handle. */
+  setFixed(vertices: Iterable<number>): void {
+    const ids = vertexIds(new Place("invalid-handle", "fixed"), vertices, this.shape.report.vertices);
+    this.#owned.accept((raw) => raw.setFixed(this.#core.stage([], ids)));
+  }
+
+  /** Adds a handle, at rest until it is moved. Errors: invalid-handle, also for a vertex that is fixed or of another handle. */
+  addHandle(vertices: Iterable<number>): Handle {
+    const place = new Place("invalid-handle", "vertices");
+    const ids = vertexIds(place, vertices, this.shape.report.vertices);
+    if (ids.length === 0) place.reject("is empty; expected at least one vertex id");
+    const { status, id } = this.#owned.call((raw) => raw.addHandle(this.#core.stage([], ids)));
+    accept(status);
+    const handle = new Handle(this.#owned, this.shape, id, ids, () => this.#handles.delete(id));
+    this.#handles.set(id, handle);
+    return handle;
+  }
+
+  /** The handles there are, oldest first. */
+  get handles(): Handle[] {
+    return [...this.#handles.values()];
+  }
+
+  // -- Solving. -------------------------------------------------------------------------------------
+
+  /** One iteration. Errors: not-solvable, too-large; the deformation is then as before. */
+  step(options: StepOptions = {}): Step {
+    const place = new Place("invalid-option", "options");
+    return this.#step(readTolerance(place, fields(place, options, ["tolerance"])));
+  }
+
+  /** Iterates until the method's test holds, and yields to the event loop in between. Errors: as `step`, aborted, disposed. */
+  async solve(options: SolveOptions = {}): Promise<Solution> {
+    const { tolerance, maxIterations, signal, onProgress } = readSolveOptions(options);
+    let iterations = 0;
+    for (;;) {
+      await eventLoopTurn();
+      throwIfAborted(signal);
+      const step = this.#step(tolerance);
+      if (step.accepted) ++iterations;
+      onProgress?.(step);
+      const settled = step.converged || !step.accepted;
+      if (iterations >= maxIterations || (settled && !this.#refine())) return { ...step, iterations };
+    }
+  }
+
+  #step(tolerance: number): Step {
+    const start = performance.now();
+    const { status, ...report } = this.#owned.call((raw) => raw.step(tolerance));
+    accept(status);
+    const milliseconds = performance.now() - start;
+    return { ...report, terms: this.#terms("value"), milliseconds };
+  }
+
+  /** Whether refinement has added something to solve. */
+  #refine(): boolean {
+    if (this.#refined) return false;
+    const result = this.#owned.call((raw) => this.#method.refine(raw, this.shape, this.#options));
+    if (!result) return false;
+    accept(result.status);
+    this.#refined = true;
+    return result.added > 0;
+  }
+
+  /** At the current deformation and targets: the weighted sum, each term unweighted, and the weights. */
+  energy(): { total: number; terms: Record<string, number>; weights: Record<string, number> } {
+    const total = this.#owned.call((raw) => raw.energyTotal());
+    return { total, terms: this.#terms("value"), weights: this.#terms("weight") };
+  }
+
+  #terms(part: "value" | "weight"): Record<string, number> {
+    const terms = this.#owned.call((raw) => raw.energyTerms());
+    return Object.fromEntries(terms.map((term) => [term.name, term[part]]));
+  }
+
+  get counters(): Counters {
+    return this.#owned.call((raw) => raw.counters());
+  }
+
+  // -- Results. -------------------------------------------------------------------------------------
+
+  /** Deformed positions of the input's vertices, `shape.dimension` numbers each; a Float64Array for `out` gets them in double. */
+  positions(): Float32Array;
+  positions<T extends FloatArray>(out: T): T;
+  positions(out?: FloatArray): FloatArray {
+    const length = this.shape.report.vertices * this.shape.dimension;
+    const result = output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
+    this.#owned.call((raw) =>
+      copyPoints(result instanceof Float64Array ? raw.positions64() : raw.positions(), result, 0, this.shape.dimension));
+    return result;
+  }
+
+  /** Unit normals, three numbers a vertex. */
+  normals(): Float32Array;
+  normals<T extends FloatArray>(out: T): T;
+  normals(out?: FloatArray): FloatArray {
+    const length = this.shape.report.vertices * 3;
+    const result = output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
+    this.#owned.call((raw) => result.set(raw.normals()));
+    return result;
+  }
+
+  /** Other points, in rest coordinates, carried by the same deformation; single precision in, single out. `out` may be `points`. */
+  transformPoints(points: Float32Array): Float32Array;
+  transformPoints(points: ArrayLike<number>): Float64Array;
+  transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): T;
+  transformPoints(points: ArrayLike<number>, out?: FloatArray): FloatArray {
+    const { dimension } = this.shape;
+    const checked = coordinates(new Place("invalid-option", "points"), points, dimension);
+    const given = checked instanceof Float32Array ? checked : Float64Array.from(checked);
+    const result = output(new Place("invalid-option", "out"), out, given.length, () => new (given.constructor as Float64ArrayConstructor)(given.length));
+    const size = pointsPerCall * dimension;
+    for (let at = 0; at < given.length; at += size) {
+      this.#owned.accept((raw) => {
+        const carried = raw.transformPoints(this.#core.stage(toSpace(given.subarray(at, at + size), dimension)));
+        if (carried.status.code === "ok") copyPoints(carried.points, result, at, dimension);
+        return carried.status;
+      });
+    }
+    return result;
+  }
+
+  // -- Life. ----------------------------------------------------------------------------------------
+
+  /** All that is needed to recompute the result without Pliant. */
+  state(): State {
+    return this.#withState((raw, state) => {
+      raw.save(state);
+      return toState(readTables(state));
+    });
+  }
+
+  /** Takes a state saved by the same method over the same shape; targets come back for handles with the same vertices. Errors: invalid-option. */
+  restore(state: State): void {
+    const place = new Place("invalid-option", "state");
+    this.#withState((raw, saved) => {
+      raw.save(saved);
+      const like = readTables(saved);
+      return this.#withState((_, given) => {
+        writeTables(this.#core, given, place, state, like);
+        accept(raw.restore(given));
+      });
+    });
+  }
+
+  /** Back to rest, bit for bit: handles and the fixed region stay, targets return to rest. */
+  reset(): void {
+    this.#owned.call((raw) => raw.reset());
+  }
+
+  /** Frees its memory. Every later call, also on its handles, is a `disposed` error. */
+  dispose(): void {
+    this.#owned.dispose();
+  }
+
+  [disposeSymbol](): void {
+    this.dispose();
+  }
+
+  get #core(): Core {
+    return this.#owned.core;
+  }
+
+  #withState<T>(use: (raw: RawDeformer, state: InstanceType<Core["raw"]["State"]>) => T): T {
+    return this.#owned.call((raw) => {
+      const state = new this.#core.raw.State();
+      try {
+        return use(raw, state);
+      } finally {
+        state.delete();
+      }
+    });
+  }
+}
+
+/** Copies points out of WASM memory; the plane drops z. */
+function copyPoints(from: FloatArray, to: FloatArray, at: number, dimension: number): void {
+  if (dimension === 3) {
+    to.set(from, at);
+    return;
+  }
+  for (let i = 0; i < from.length; i += 3, at += 2) {
+    to[at] = from[i];
+    to[at + 1] = from[i + 1];
+  }
+}
+
+function readTolerance(place: Place, { tolerance = 1e-6 }: Readonly<Record<string, unknown>>): number {
+  return positive(place.at("tolerance"), tolerance);
+}
+
+function readSolveOptions(value: SolveOptions) {
+  const place = new Place("invalid-option", "options");
+  const options = fields(place, value, ["maxIterations", "tolerance", "signal", "onProgress"]);
+  const { maxIterations = 100, signal, onProgress } = options;
+  return {
+    tolerance: readTolerance(place, options),
+    maxIterations: integer(place.at("maxIterations"), maxIterations, 1, Number.MAX_SAFE_INTEGER),
+    signal: readSignal(place.at("signal"), signal),
+    onProgress: readCallback<SolveOptions["onProgress"]>(place.at("onProgress"), onProgress),
+  };
+}
+
+export function readSignal(place: Place, value: unknown): AbortSignal | undefined {
+  const fits = value === undefined || (typeof value === "object" && value !== null && "aborted" in value);
+  return fits ? (value as AbortSignal | undefined) : place.fail(value, "an AbortSignal");
+}
+
+export function readCallback<T>(place: Place, value: unknown): T | undefined {
+  return value === undefined || typeof value === "function" ? (value as T | undefined) : place.fail(value, "a function");
+}
+
+export function throwIfAborted(signal: AbortSignal | undefined): void {
+  if (signal?.aborted) throw new PliantError("aborted", "the signal was aborted", { cause: signal.reason });
+}
+
+/** Lets timers, messages and input in. A message, where there is one, is not delayed as timers are. */
+export function eventLoopTurn(): Promise<void> {
+  return new Promise((resolve) => {
+    if (typeof setImmediate === "function") {
+      setImmediate(resolve);
+      return;
+    }
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port2.postMessage(null);
+  });
+}

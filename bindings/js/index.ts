@@ -1,0 +1,8 @@
+// pliant: the package, with `pliant.wasm` loaded from beside it.
+
+import { makeInit } from "./init.js";
+import { fetchBinary } from "./wasm.js";
+
+export * from "./public.js";
+
+export const init = makeInit(() => fetchBinary(new URL("./pliant.wasm", import.meta.url)));

@@ -1,0 +1,47 @@
+// The started library.
+
+import { fields, Place } from "./check.js";
+import type { Core } from "./core.js";
+import { Deformer, readCallback, readSignal } from "./deformer.js";
+import type { DeformerOptions } from "./methods/index.js";
+import { measure, type MeasureOptions, type Quality } from "./quality.js";
+import { readScript } from "./script/read.js";
+import { runScript } from "./script/run.js";
+import type { EditOptions, EditResult, EditScript } from "./script/types.js";
+import { Shape, type ShapeInput } from "./shape.js";
+
+/** What `init` resolves to. */
+export class Pliant {
+  readonly #core: Core;
+
+  /** @internal */
+  constructor(core: Core) {
+    this.#core = core;
+  }
+
+  /** Checks a shape and takes it in. Errors: invalid-shape, too-large. */
+  shape(input: ShapeInput): Shape {
+    return new Shape(this.#core, input);
+  }
+
+  /** Builds a deformer over a shape. Errors: invalid-option, too-large. */
+  deformer(shape: Shape, options: DeformerOptions): Deformer {
+    return new Deformer(this.#core, shape, options);
+  }
+
+  /** Compares a shape with deformed positions of its vertices. Errors: invalid-option. */
+  measure(shape: Shape, positions: ArrayLike<number>, options?: MeasureOptions): Quality {
+    return measure(this.#core, shape, positions, options);
+  }
+
+  /** Runs an edit script. Errors: invalid-script, not-solvable, too-large, aborted. */
+  async edit(shape: Shape, script: EditScript, options: EditOptions = {}): Promise<EditResult> {
+    if (!(shape instanceof Shape)) new Place("invalid-option", "shape").fail(shape, "a Shape of this package");
+    const place = new Place("invalid-option", "options");
+    const given = fields(place, options, ["signal", "onProgress"]);
+    const signal = readSignal(place.at("signal"), given.signal);
+    const onProgress = readCallback<EditOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
+    const plan = readScript(script, { count: shape.report.vertices, dimension: shape.dimension });
+    return runScript(this.#core, shape, plan, { signal, onProgress });
+  }
+}

@@ -1,0 +1,16 @@
+// What every entry of the package exports beside its `init`.
+
+export type { FloatArray } from "./check.js";
+export { type Counters, Deformer, type Solution, type SolveOptions, type Step, type StepOptions } from "./deformer.js";
+export { type ErrorCode, PliantError } from "./errors.js";
+export { Handle } from "./handle.js";
+export type { Init } from "./init.js";
+export type { DeformerOptions, EmbeddedGraphOptions } from "./methods/index.js";
+export { Pliant } from "./pliant.js";
+export type { MeasureOptions, Quality } from "./quality.js";
+export type * from "./script/types.js";
+export type { Selection } from "./selection.js";
+export { Shape, type ShapeInput, type ShapeReport } from "./shape.js";
+export type { HandleState, State } from "./state.js";
+export type { Transform } from "./transform.js";
+export type { InitOptions } from "./wasm.js";

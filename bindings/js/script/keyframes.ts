@@ -1,0 +1,85 @@
+// Keyframes: the same steps at several times. What lies between is an ordinary edit whose moves are
+// interpolated by their numbers: degrees turn, positions shift, sizes scale.
+
+import { list, type Place } from "../check.js";
+import type { Transform } from "../transform.js";
+import type { Goal, Keyframe, ScriptPlan, StepPlan } from "./read.js";
+
+type Json = Record<string, unknown>;
+
+/** Refuses a keyframe whose steps differ from the first one's in more than numbers of moves and targets. */
+export function sameExceptGoals(place: Place, first: unknown, steps: unknown): void {
+  const [a, b] = [list(place, first), list(place, steps)];
+  if (a.length !== b.length) place.reject(`has ${b.length} steps; expected ${a.length} as in the first keyframe`);
+  for (let i = 0; i < a.length; ++i) sameStep(place.item(i), a[i] as Json, b[i] as Json);
+}
+
+function sameStep(place: Place, a: Json, b: Json): void {
+  if (b.drag !== undefined) place.at("drag").reject("is given in a keyframe; expected a drag only in steps");
+  for (const key of ["method", "options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
+  const [mine, theirs] = [a.handles as Json[], b.handles as Json[]];
+  if (mine.length !== theirs.length) place.at("handles").reject(`has ${theirs.length} handles; expected ${mine.length} as in the first keyframe`);
+  theirs.forEach((handle, i) => {
+    const here = place.at("handles").item(i);
+    for (const key of ["name", "select"]) same(here.at(key), mine[i][key], handle[key]);
+    sameKind(here, mine[i], handle);
+  });
+}
+
+function sameKind(place: Place, a: Json, b: Json): void {
+  const [mine, theirs] = [a.move ?? {}, b.move ?? {}] as Transform[];
+  const kind = (handle: Json, move: Transform) => (handle.targets ? "targets" : move.matrix ? "a matrix" : "a move");
+  if (kind(a, mine) !== kind(b, theirs)) place.reject(`has ${kind(b, theirs)}; expected ${kind(a, mine)} as in the first keyframe`);
+  if (!mine.rotate || !theirs.rotate) return;
+  for (const key of ["axis", "about"] as const) same(place.at("move").at("rotate").at(key), mine.rotate[key], theirs.rotate[key]);
+}
+
+function same(place: Place, a: unknown, b: unknown): void {
+  if (JSON.stringify(a) !== JSON.stringify(b)) place.reject("differs from the first keyframe; expected the same");
+}
+
+/** The edits to make, one a frame, evenly from the first time to the last. */
+export function* framesOf({ keyframes, frames = 1 }: ScriptPlan): Generator<Keyframe> {
+  const first = keyframes[0].time;
+  const last = keyframes[keyframes.length - 1].time;
+  for (let frame = 0; frame < frames; ++frame) {
+    const time = frames === 1 ? first : first + ((last - first) * frame) / (frames - 1);
+    yield { time, steps: stepsAt(keyframes, time) };
+  }
+}
+
+function stepsAt(keyframes: Keyframe[], time: number): StepPlan[] {
+  const next = keyframes.findIndex((keyframe) => keyframe.time >= time);
+  const b = keyframes[next < 0 ? keyframes.length - 1 : next];
+  const a = keyframes[Math.max(0, next - 1)];
+  if (next <= 0 || b.time === time) return b.steps;
+  const u = (time - a.time) / (b.time - a.time);
+  return a.steps.map((step, i) => ({
+    ...step,
+    handles: step.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.steps[i].handles[h].goal, u) })),
+  }));
+}
+
+function between(a: Goal | undefined, b: Goal | undefined, u: number): Goal | undefined {
+  if (a && b && "targets" in a && "targets" in b) return { ...b, targets: mix(a.targets, b.targets, u) };
+  if ((a && "targets" in a) || (b && "targets" in b)) return b;
+  return { move: mixMoves(a?.move ?? {}, b?.move ?? {}, u) };
+}
+
+function mixMoves(a: Transform, b: Transform, u: number): Transform {
+  if (a.matrix && b.matrix) return { matrix: mix(a.matrix, b.matrix, u) };
+  const move: Transform = { scale: lerp(a.scale ?? 1, b.scale ?? 1, u) };
+  const rotate = a.rotate ?? b.rotate;
+  if (rotate) move.rotate = { ...rotate, degrees: lerp(a.rotate?.degrees ?? 0, b.rotate?.degrees ?? 0, u) };
+  const zeros = Array.from(a.translate ?? b.translate ?? [], () => 0);
+  if (zeros.length > 0) move.translate = mix(a.translate ?? zeros, b.translate ?? zeros, u);
+  return move;
+}
+
+function mix(a: ArrayLike<number>, b: ArrayLike<number>, u: number): number[] {
+  return Array.from(a, (x, i) => lerp(x, b[i], u));
+}
+
+function lerp(a: number, b: number, u: number): number {
+  return a + u * (b - a);
+}

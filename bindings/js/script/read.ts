@@ -1,0 +1,165 @@
+// Reads an edit script: every key and value is checked, and an error names its place in the script.
+
+import { choice, fields, type Fields, filled, finite, integer, list, Place, points, positive } from "../check.js";
+import { type DeformerOptions, type Method, readMethod, readOptions, readSeed } from "../methods/index.js";
+import { type Extent, readSelection, type Select } from "../selection.js";
+import { readTransform, type Transform } from "../transform.js";
+import { sameExceptGoals } from "./keyframes.js";
+
+/** Where a handle goes. */
+export type Goal = { move: Transform } | { targets: ArrayLike<number>; place: Place };
+
+export interface HandlePlan {
+  place: Place;
+  name: string | undefined;
+  select: Select;
+  goal: Goal | undefined;
+}
+
+export interface DragPlan {
+  /** By the position of the handle in the step. */
+  goals: { handle: number; goal: Goal }[];
+  iterations: number;
+}
+
+export interface StepPlan {
+  place: Place;
+  /** Checked, and read again by the deformer. */
+  options: DeformerOptions;
+  fixed: { place: Place; select: Select }[];
+  handles: HandlePlan[];
+  iterations: number;
+  tolerance: number;
+  drag: DragPlan[];
+}
+
+export interface Keyframe {
+  time: number;
+  steps: StepPlan[];
+}
+
+export interface ScriptPlan {
+  /** One where the script has steps. */
+  keyframes: Keyframe[];
+  /** How many frames to make; undefined where the script has steps. */
+  frames: number | undefined;
+}
+
+const maxCount = 2 ** 31 - 1;
+
+/** Errors: invalid-script. */
+export function readScript(value: unknown, extent: Extent): ScriptPlan {
+  const place = new Place("invalid-script", "");
+  const script = fields(new Place("invalid-script", "script"), value, ["format", "version", "steps", "keyframes", "frames", "seed"]);
+  choice(place.at("format"), script.format, ["pliant-edit"]);
+  if (script.version !== 1) place.at("version").fail(script.version, "1");
+  const seed = script.seed === undefined ? undefined : readSeed(place.at("seed"), script.seed);
+  const context = { extent, seed };
+  if (script.keyframes === undefined) {
+    if (script.frames !== undefined) place.at("frames").reject("is given without keyframes; expected both or neither");
+    return { keyframes: [{ time: 0, steps: readSteps(place.at("steps"), script.steps, context) }], frames: undefined };
+  }
+  if (script.steps !== undefined) place.at("keyframes").reject("is given beside steps; expected one or the other");
+  return {
+    keyframes: readKeyframes(place.at("keyframes"), script.keyframes, context),
+    frames: integer(place.at("frames"), script.frames, 1, maxCount),
+  };
+}
+
+interface Context {
+  extent: Extent;
+  seed: number | undefined;
+}
+
+function readKeyframes(place: Place, value: unknown, context: Context): Keyframe[] {
+  const items = filled(place, value, "keyframes");
+  return Array.from(items, (item, i) => {
+    const here = place.item(i);
+    const keyframe = fields(here, item, ["time", "steps"]);
+    const time = finite(here.at("time"), keyframe.time);
+    const steps = readSteps(here.at("steps"), keyframe.steps, context);
+    if (i > 0) {
+      const first = items[0] as Fields;
+      const before = (items[i - 1] as Fields).time as number;
+      if (!(time > before)) here.at("time").fail(time, `a time after ${before}, that of the keyframe before`);
+      sameExceptGoals(here.at("steps"), first.steps, keyframe.steps);
+    }
+    return { time, steps };
+  });
+}
+
+function readSteps(place: Place, value: unknown, context: Context): StepPlan[] {
+  return Array.from(filled(place, value, "steps"), (step, i) => readStep(place.item(i), step, context));
+}
+
+function readStep(place: Place, value: unknown, { extent, seed }: Context): StepPlan {
+  if (typeof value !== "object" || value === null) place.fail(value, "a step");
+  const method = readMethod(place.at("method"), (value as Fields).method);
+  const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
+  readOptions(place.at("options"), step.options ?? {}, method, extent);
+  const handles = readHandles(place, step.handles, extent);
+  return {
+    place,
+    options: { ...(seed !== undefined && "seed" in method.options ? { seed } : {}), ...(step.options as object), method: method.name } as DeformerOptions,
+    fixed: Array.from(list(place.at("fixed"), step.fixed ?? [], "selections"), (item, i) => ({
+      place: place.at("fixed").item(i),
+      select: readSelection(place.at("fixed").item(i), item, extent),
+    })),
+    handles,
+    ...readSolve(place.at("solve"), step.solve),
+    drag: Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
+      readDrag(place.at("drag").item(i), item, method, handles, extent)),
+  };
+}
+
+function readSolve(place: Place, value: unknown): { iterations: number; tolerance: number } {
+  const { iterations = 100, tolerance = 1e-6 } = fields(place, value ?? {}, ["iterations", "tolerance"]);
+  return {
+    iterations: integer(place.at("iterations"), iterations, 1, maxCount),
+    tolerance: positive(place.at("tolerance"), tolerance),
+  };
+}
+
+function readHandles(step: Place, value: unknown, extent: Extent): HandlePlan[] {
+  const place = step.at("handles");
+  if (value === undefined) step.reject("has no handles and asks for nothing; expected at least one handle");
+  const names = new Set<string>();
+  return Array.from(filled(place, value, "at least one handle"), (item, i) => {
+    const here = place.item(i);
+    const handle = fields(here, item, ["name", "select", "move", "targets"]);
+    const name = handle.name === undefined ? undefined : readName(here.at("name"), handle.name);
+    if (name !== undefined && names.has(name)) here.at("name").reject(`is "${name}", the name of an earlier handle; expected another`);
+    if (name !== undefined) names.add(name);
+    return { place: here, name, select: readSelection(here.at("select"), handle.select, extent), goal: readGoal(here, handle, extent) };
+  });
+}
+
+function readName(place: Place, value: unknown): string {
+  return typeof value === "string" && value !== "" ? value : place.fail(value, "a name");
+}
+
+function readGoal(place: Place, { move, targets }: Fields, { dimension }: Extent): Goal | undefined {
+  if (move !== undefined && targets !== undefined) place.reject("has move and targets; expected one or the other");
+  if (targets !== undefined) return { targets: points(place.at("targets"), targets, dimension), place: place.at("targets") };
+  if (move === undefined) return undefined;
+  readTransform(place.at("move"), move, dimension);
+  return { move: move as Transform };
+}
+
+function readDrag(place: Place, value: unknown, method: Method, handles: HandlePlan[], extent: Extent): DragPlan {
+  const drag = fields(place, value, ["handles", "options", "iterations"]);
+  fields(place.at("options"), drag.options ?? {}, method.live, `option of ${method.name} that may change during a drag`);
+  const seen = new Set<number>();
+  const goals = Array.from(list(place.at("handles"), drag.handles ?? []), (item, i) => {
+    const here = place.at("handles").item(i);
+    const entry = fields(here, item, ["name", "move", "targets"]);
+    const name = readName(here.at("name"), entry.name);
+    const handle = handles.findIndex((plan) => plan.name === name);
+    if (handle < 0) here.at("name").fail(name, "the name of a handle of the step");
+    if (seen.has(handle)) here.at("name").reject(`is "${name}", which this entry moves already; expected each handle once`);
+    seen.add(handle);
+    return { handle, goal: readGoal(here, entry, extent) ?? here.reject("has neither move nor targets; expected one of them") };
+  });
+  const { iterations = 1 } = drag;
+  return { goals, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };
+}

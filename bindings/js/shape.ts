@@ -1,0 +1,123 @@
+// Shapes: the checked door for all input.
+
+import { coordinates, fields, integer, list, Place } from "./check.js";
+import { build, type Core, disposeSymbol, Owned } from "./core.js";
+import { PliantError } from "./errors.js";
+import type { RawShape } from "./raw.js";
+import { readSelection, selectedIds, type Selection } from "./selection.js";
+
+/** A mesh, a polygon soup, points, or a picture in the plane. */
+export interface ShapeInput {
+  /** `dimension` numbers a vertex. */
+  positions: ArrayLike<number>;
+  /** Three vertex ids a triangle; none: points. */
+  triangles?: ArrayLike<number>;
+  /** 3, or 2 for the plane. */
+  dimension?: 2 | 3;
+}
+
+/** What was found. Edges and components are counted after vertices at equal positions became one. */
+export interface ShapeReport {
+  vertices: number;
+  triangles: number;
+  components: number;
+  /** Edges with one triangle. */
+  boundaryEdges: number;
+  /** Edges with more than two triangles. */
+  nonManifoldEdges: number;
+  /** Triangles with fewer than three distinct points, or no area. */
+  degenerateTriangles: number;
+  /** Vertices that share the position of an earlier one. */
+  weldedVertices: number;
+}
+
+/** What the rest of the package knows of a shape. */
+export interface ShapeInside {
+  readonly owned: Owned<RawShape>;
+  /** The input's positions, `dimension` numbers a vertex. */
+  readonly rest: Float64Array;
+  readonly triangles: Uint32Array;
+  /** Whether the input came in single precision: so do results then. */
+  readonly single: boolean;
+}
+
+const maxVertices = 8_000_000;
+const maxTriangles = 4 * maxVertices;
+
+/** The inside of a shape; not for callers of the package. */
+export let insideOf: (shape: Shape) => ShapeInside;
+
+/** A shape at rest. It does not change; deformers are built over it and live on without it. */
+export class Shape {
+  readonly report: Readonly<ShapeReport>;
+  readonly dimension: 2 | 3;
+  /** Diagonal of the bounding box. */
+  readonly diagonal: number;
+  readonly #inside: ShapeInside;
+
+  static {
+    insideOf = (shape) => shape.#inside;
+  }
+
+  /** @internal */
+  constructor(core: Core, input: ShapeInput) {
+    const { dimension, rest, triangles, single } = readInput(input);
+    const raw = core.stageOnce(rest, triangles, (scratch) =>
+      build(core, () => new core.raw.Shape(), (shape) => shape.build(scratch, dimension)));
+    const owned = new Owned(core, raw, this, "shape");
+    this.dimension = dimension;
+    this.report = Object.freeze(owned.call((shape) => shape.report()));
+    this.diagonal = owned.call((shape) => shape.diagonal());
+    this.#inside = { owned, rest, triangles, single };
+  }
+
+  /** The selected vertices, ascending. Errors: invalid-option, also where nothing is selected. */
+  select(selection: Selection): Uint32Array {
+    const place = new Place("invalid-option", "selection");
+    const extent = { count: this.report.vertices, dimension: this.dimension };
+    return Uint32Array.from(selectedIds(place, readSelection(place, selection, extent), this.#inside.rest));
+  }
+
+  /** Frees its memory; deformers built over it stay. */
+  dispose(): void {
+    this.#inside.owned.dispose();
+  }
+
+  [disposeSymbol](): void {
+    this.dispose();
+  }
+}
+
+function readInput(value: unknown) {
+  const place = new Place("invalid-shape", "");
+  const input = fields(new Place("invalid-shape", "shape"), value, ["positions", "triangles", "dimension"]);
+  const dimension = input.dimension === undefined ? 3 : readDimension(place.at("dimension"), input.dimension);
+  const positions = readCount(place.at("positions"), coordinates(place.at("positions"), input.positions, dimension), dimension, maxVertices);
+  const triangles = readTriangles(place.at("triangles"), input.triangles ?? [], positions.length / dimension);
+  return {
+    dimension,
+    rest: Float64Array.from(positions),
+    triangles: Uint32Array.from(triangles),
+    single: positions instanceof Float32Array,
+  };
+}
+
+function readDimension(place: Place, value: unknown): 2 | 3 {
+  return value === 2 || value === 3 ? value : place.fail(value, "2 or 3");
+}
+
+function readTriangles(place: Place, value: unknown, vertices: number): ArrayLike<number> {
+  const expected = "an array of vertex ids, 3 a triangle";
+  const ids = list(place, value, expected) as ArrayLike<number>;
+  if (ids.length % 3 !== 0) place.fail(ids, `${expected}: a length divisible by 3`);
+  readCount(place, ids, 3, maxTriangles);
+  for (let i = 0; i < ids.length; ++i) {
+    if (!(ids[i] >= 0 && ids[i] < vertices && Number.isInteger(ids[i]))) integer(place.item(i), ids[i], 0, vertices - 1, "a vertex id");
+  }
+  return ids;
+}
+
+function readCount(place: Place, values: ArrayLike<number>, size: number, max: number): ArrayLike<number> {
+  if (values.length <= size * max) return values;
+  throw new PliantError("too-large", `${place.path} holds ${values.length / size} entries of ${size} numbers; expected at most ${max}`);
+}

@@ -1,0 +1,75 @@
+// TRANSFORM of the edit script: how a handle moves from its rest position.
+
+import { direction, fields, finite, type Place, positive, toSpace, vector } from "./check.js";
+
+/** Applied in this order: scale about the centroid of the handle, rotate, translate; or a matrix. */
+export interface Transform {
+  scale?: number;
+  /** axis: in the plane it may be left out. about: the centroid of the handle when left out. */
+  rotate?: { axis?: ArrayLike<number>; degrees: number; about?: ArrayLike<number> };
+  translate?: ArrayLike<number>;
+  /** 16 numbers, column by column, instead of the others. */
+  matrix?: ArrayLike<number>;
+}
+
+/** A checked TRANSFORM, in space. */
+export type Motion = Steps | { kind: "matrix"; matrix: number[] };
+
+export interface Steps {
+  kind: "steps";
+  scale: number;
+  axis: number[];
+  degrees: number;
+  about: number[] | undefined;
+  translate: number[];
+}
+
+export function readTransform(place: Place, value: unknown, dimension: number): Motion {
+  const move = fields(place, value, ["scale", "rotate", "translate", "matrix"]);
+  if (move.matrix !== undefined) {
+    const others = Object.keys(move).filter((key) => key !== "matrix");
+    if (others.length > 0) place.reject(`has matrix and ${others[0]}; expected one or the other`);
+    return { kind: "matrix", matrix: readMatrix(place.at("matrix"), move.matrix, dimension) };
+  }
+  const space = (at: Place, v: unknown) => Array.from(toSpace(vector(at, v, dimension), dimension));
+  const rotate = move.rotate === undefined ? undefined : fields(place.at("rotate"), move.rotate, ["axis", "degrees", "about"]);
+  const turn = place.at("rotate");
+  return {
+    kind: "steps",
+    scale: move.scale === undefined ? 1 : positive(place.at("scale"), move.scale),
+    axis: rotate ? readAxis(turn.at("axis"), rotate.axis, dimension) : [0, 0, 1],
+    degrees: rotate ? finite(turn.at("degrees"), rotate.degrees) : 0,
+    about: rotate?.about === undefined ? undefined : space(turn.at("about"), rotate.about),
+    translate: move.translate === undefined ? [0, 0, 0] : space(place.at("translate"), move.translate),
+  };
+}
+
+function readAxis(place: Place, value: unknown, dimension: number): number[] {
+  if (dimension === 3) return direction(place, value, 3);
+  if (value === undefined) return [0, 0, 1];
+  const axis = direction(place, value, 3);
+  return axis[0] === 0 && axis[1] === 0 ? axis : place.reject("leaves the plane; expected [0, 0, 1] or [0, 0, -1]");
+}
+
+function readMatrix(place: Place, value: unknown, dimension: number): number[] {
+  const m = vector(place, value, 16);
+  if (m[3] !== 0 || m[7] !== 0 || m[11] !== 0 || m[15] !== 1) place.reject("has a last row other than 0 0 0 1; expected an affine matrix, column by column");
+  if (dimension === 2 && (m[2] !== 0 || m[6] !== 0 || m[14] !== 0)) place.reject("leaves the plane; expected a matrix that keeps z = 0");
+  return m;
+}
+
+/** The numbers a RawDeformer takes: scale, center, axis, angle in radians, about, translation. */
+export function packMotion(motion: Steps, center: number[]): number[] {
+  const { scale, axis, degrees, about = center, translate } = motion;
+  return [scale, ...center, ...axis, (degrees * Math.PI) / 180, ...about, ...translate];
+}
+
+/** Where an affine matrix takes points, `dimension` numbers each. */
+export function applyMatrix(m: number[], points: Float64Array, dimension: number): Float64Array {
+  return points.map((_, i) => {
+    const row = i % dimension;
+    let sum = m[12 + row];
+    for (let axis = 0; axis < dimension; ++axis) sum += m[4 * axis + row] * points[i - row + axis];
+    return sum;
+  });
+}

@@ -1,0 +1,28 @@
+// Modules that build.mjs makes.
+
+declare module "#wasm/pliant.mjs" {
+  const createModule: import("./wasm.js").ModuleFactory<import("./raw.js").RawModule>;
+  export default createModule;
+}
+
+declare module "#wasm/pliant-io.mjs" {
+  const createModule: import("./wasm.js").ModuleFactory<import("./raw.js").RawIoModule>;
+  export default createModule;
+}
+
+/** pliant.wasm, gzipped, in base64. */
+declare module "#wasm/inline" {
+  const text: string;
+  export default text;
+}
+
+/** The worker's script, with the WASM inside. */
+declare module "#worker-script" {
+  const script: string;
+  export default script;
+}
+
+declare module "#version" {
+  const version: string;
+  export default version;
+}

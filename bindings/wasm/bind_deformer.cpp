@@ -1,0 +1,248 @@
+// Deformers: RawDeformer of bindings/js/raw.ts. One class for every method; only build* differ.
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <Eigen/Core>
+#include <emscripten/bind.h>
+
+#include "bound_shape.h"
+#include "bound_state.h"
+#include "pliant/deformers/embedded_graph/deformer.h"
+
+namespace pliant::bindings {
+namespace {
+
+using emscripten::val;
+
+/// RawEmbeddedGraphOptions. Names of choices are checked in bindings/js.
+struct EmbeddedGraphValues {
+  Index node_count;
+  std::string sampling;
+  int neighbours;
+  double rotation_weight, regularization_weight, constraint_weight;
+  std::string solver;
+  bool exact_handles;
+  double seed;
+};
+
+struct StepValue {
+  StatusValue status;
+  int iteration = 0;
+  double energy = 0.0;
+  bool accepted = false;
+  bool converged = false;
+};
+
+struct IdValue {
+  StatusValue status;
+  int id = 0;
+};
+
+struct PointsValue {
+  StatusValue status;
+  val points = val::null();
+};
+
+struct CountValue {
+  StatusValue status;
+  Index added = 0;
+};
+
+Points to_points(const std::vector<double>& coordinates) {
+  return Eigen::Map<const Points>(coordinates.data(), 3, coordinates.size() / 3);
+}
+
+template <class Matrix>
+val view_of_matrix(const Matrix& matrix) {
+  return val(emscripten::typed_memory_view(matrix.size(), matrix.data()));
+}
+
+NodeSampling sampling_of(const std::string& name) {
+  if (name == "nodes") return NodeSampling::nodes;
+  return name == "simplify" ? NodeSampling::simplify : NodeSampling::surface;
+}
+
+/// |a|, a..., |b|, b... for each pair.
+std::vector<Cut> to_cuts(const std::vector<std::int32_t>& packed) {
+  std::vector<Cut> cuts;
+  auto next = packed.begin();
+  const auto take = [&next] {
+    const auto first = next + 1;
+    next = first + *next;
+    return std::vector<Index>(first, next);
+  };
+  while (next != packed.end()) {
+    Cut& cut = cuts.emplace_back();
+    cut.a = take();
+    cut.b = take();
+  }
+  return cuts;
+}
+
+EmbeddedGraphOptions to_options(const EmbeddedGraphValues& values, const Scratch& scratch) {
+  EmbeddedGraphOptions options;
+  options.node_count = values.node_count;
+  options.sampling = sampling_of(values.sampling);
+  if (options.sampling == NodeSampling::nodes) options.nodes = to_points(scratch.doubles());
+  options.neighbours = values.neighbours;
+  options.rotation_weight = values.rotation_weight;
+  options.regularization_weight = values.regularization_weight;
+  options.constraint_weight = values.constraint_weight;
+  options.solver = values.solver == "gauss-newton" ? EmbeddedGraphSolver::gauss_newton
+                                                   : EmbeddedGraphSolver::automatic;
+  options.exact_handles = values.exact_handles;
+  options.cuts = to_cuts(scratch.integers());
+  options.seed = static_cast<std::uint64_t>(values.seed);
+  return options;
+}
+
+/// scale, center xyz, axis xyz, angle, about xyz, translation xyz.
+Motion to_motion(const std::vector<double>& v) {
+  Motion motion;
+  motion.scale = v[0];
+  motion.center = {v[1], v[2], v[3]};
+  motion.axis = {v[4], v[5], v[6]};
+  motion.angle = v[7];
+  motion.about = {v[8], v[9], v[10]};
+  motion.translation = {v[11], v[12], v[13]};
+  return motion;
+}
+
+/// Empty until a build* succeeds; the other calls need a deformer. The views it hands out are of
+/// its own buffers, valid until the next call of the same name.
+class BoundDeformer {
+ public:
+  StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values,
+                                   const Scratch& scratch) {
+    auto built = EmbeddedGraph::create(shape.get(), to_options(values, scratch));
+    if (!built.ok()) return to_value(built.status());
+    refinable_ = built->get();
+    deformer_ = std::move(*built);
+    return to_value(Status());
+  }
+
+  StatusValue set_fixed(const Scratch& scratch) {
+    return to_value(deformer_->set_fixed(scratch.integers()));
+  }
+  IdValue add_handle(const Scratch& scratch) {
+    const auto id = deformer_->add_handle(scratch.integers());
+    return {to_value(id.status()), id.ok() ? *id : 0};
+  }
+  StatusValue remove_handle(int id) { return to_value(deformer_->remove_handle(id)); }
+  StatusValue move_handle(int id, const Scratch& scratch) {
+    return to_value(deformer_->move_handle(id, to_motion(scratch.doubles())));
+  }
+  StatusValue set_targets(int id, const Scratch& scratch) {
+    return to_value(deformer_->set_targets(id, to_points(scratch.doubles())));
+  }
+
+  StepValue step(double tolerance) {
+    const auto report = deformer_->step(tolerance);
+    if (!report.ok()) return {to_value(report.status())};
+    return {to_value(report.status()), report->iteration, report->energy, report->accepted,
+            report->converged};
+  }
+  double energy_total() const { return deformer_->energy().total; }
+  val energy_terms() const {
+    val terms = val::array();
+    for (const EnergyTerm& term : deformer_->energy().terms) terms.call<void>("push", term);
+    return terms;
+  }
+  Counters counters() const { return deformer_->counters(); }
+
+  val positions() {
+    floats_ = deformer_->positions().cast<float>();
+    return view_of_matrix(floats_);
+  }
+  val positions64() {
+    doubles_ = deformer_->positions();
+    return view_of_matrix(doubles_);
+  }
+  val normals() {
+    floats_ = deformer_->normals().cast<float>();
+    return view_of_matrix(floats_);
+  }
+  PointsValue transform_points(const Scratch& scratch) {
+    auto carried = deformer_->transform_points(to_points(scratch.doubles()));
+    if (!carried.ok()) return {to_value(carried.status())};
+    doubles_ = std::move(*carried);
+    return {to_value(Status()), view_of_matrix(doubles_)};
+  }
+
+  CountValue refine(Index max_nodes) {
+    const auto added = refinable_->refine(max_nodes);
+    return {to_value(added.status()), added.ok() ? *added : 0};
+  }
+  void reset() { deformer_->reset(); }
+  void save(BoundState& bound) const { bound.state = deformer_->save(); }
+  StatusValue restore(const BoundState& bound) { return to_value(deformer_->restore(bound.state)); }
+
+ private:
+  std::unique_ptr<Deformer> deformer_;
+  EmbeddedGraph* refinable_ = nullptr;  ///< deformer_, where its method refines
+  Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
+  Points doubles_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(pliant_deformer) {
+  using emscripten::value_object;
+
+  value_object<EmbeddedGraphValues>("RawEmbeddedGraphOptions")
+      .field("nodeCount", &EmbeddedGraphValues::node_count)
+      .field("sampling", &EmbeddedGraphValues::sampling)
+      .field("neighbours", &EmbeddedGraphValues::neighbours)
+      .field("rotationWeight", &EmbeddedGraphValues::rotation_weight)
+      .field("regularizationWeight", &EmbeddedGraphValues::regularization_weight)
+      .field("constraintWeight", &EmbeddedGraphValues::constraint_weight)
+      .field("solver", &EmbeddedGraphValues::solver)
+      .field("exactHandles", &EmbeddedGraphValues::exact_handles)
+      .field("seed", &EmbeddedGraphValues::seed);
+  value_object<StepValue>("RawStep")
+      .field("status", &StepValue::status)
+      .field("iteration", &StepValue::iteration)
+      .field("energy", &StepValue::energy)
+      .field("accepted", &StepValue::accepted)
+      .field("converged", &StepValue::converged);
+  value_object<EnergyTerm>("RawEnergyTerm")
+      .field("name", &EnergyTerm::name)
+      .field("value", &EnergyTerm::value)
+      .field("weight", &EnergyTerm::weight);
+  value_object<Counters>("RawCounters")
+      .field("unknowns", &Counters::unknowns)
+      .field("factorizations", &Counters::factorizations)
+      .field("analyses", &Counters::analyses);
+  value_object<IdValue>("RawId").field("status", &IdValue::status).field("id", &IdValue::id);
+  value_object<PointsValue>("RawPoints")
+      .field("status", &PointsValue::status)
+      .field("points", &PointsValue::points);
+  value_object<CountValue>("RawCount")
+      .field("status", &CountValue::status)
+      .field("added", &CountValue::added);
+
+  emscripten::class_<BoundDeformer>("Deformer")
+      .constructor<>()
+      .function("buildEmbeddedGraph", &BoundDeformer::build_embedded_graph)
+      .function("setFixed", &BoundDeformer::set_fixed)
+      .function("addHandle", &BoundDeformer::add_handle)
+      .function("removeHandle", &BoundDeformer::remove_handle)
+      .function("moveHandle", &BoundDeformer::move_handle)
+      .function("setTargets", &BoundDeformer::set_targets)
+      .function("step", &BoundDeformer::step)
+      .function("energyTotal", &BoundDeformer::energy_total)
+      .function("energyTerms", &BoundDeformer::energy_terms)
+      .function("counters", &BoundDeformer::counters)
+      .function("positions", &BoundDeformer::positions)
+      .function("positions64", &BoundDeformer::positions64)
+      .function("normals", &BoundDeformer::normals)
+      .function("transformPoints", &BoundDeformer::transform_points)
+      .function("refine", &BoundDeformer::refine)
+      .function("reset", &BoundDeformer::reset)
+      .function("save", &BoundDeformer::save)
+      .function("restore", &BoundDeformer::restore);
+}
+
+}  // namespace pliant::bindings
