@@ -153,7 +153,7 @@ export class Deformer {
     return Object.fromEntries(terms.map((term) => [term.name, term[part]]));
   }
 
-  get counters(): Counters {
+  counters(): Counters {
     return this.#owned.call((raw) => raw.counters());
   }
 

@@ -84,13 +84,14 @@ function packHandles(place: Place, value: unknown): PackedHandles {
   };
 }
 
-/** Fills `raw` from a state that has the fields of `like`, tables of the same deformer. */
+/** Fills `raw` from a state with fields that `like` has too, tables of the same deformer; it may have fewer. */
 export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[]): void {
   const tops = [...new Set(like.map((table) => table.name.split("/")[0]))];
   const given: Nested = { ...fields(place, state, tops, "field of this state") };
-  if (tops.includes("handles")) given.handles = packHandles(place.at("handles"), given.handles ?? []);
+  if (given.handles !== undefined) given.handles = packHandles(place.at("handles"), given.handles);
   for (const table of like) {
     const value = table.name.split("/").reduce<unknown>((at, key) => (at as Nested | undefined)?.[key], given);
+    if (value === undefined) continue;
     const numbers = readTable(place.at(table.name.replaceAll("/", ".")), value, table);
     raw.add(table.name, table.columns, table.integral, core.stage(numbers));
   }

@@ -106,7 +106,7 @@ class Run {
     const setupMs = performance.now() - begin;
     const start = deformer.energy().total;
     const solve = await this.#solve(deformer, plan, plan.iterations, onStep);
-    const { unknowns, factorizations, analyses } = deformer.counters;
+    const { unknowns, factorizations, analyses } = deformer.counters();
     const drag = [];
     for (const entry of plan.drag) drag.push(await this.#drag(deformer, handles, plan, entry, onStep));
     const { total, terms } = deformer.energy();
@@ -127,10 +127,10 @@ class Run {
   }
 
   async #drag(deformer: Deformer, handles: Handle[], plan: StepPlan, entry: DragPlan, onStep: (step: Step) => void) {
-    const before = deformer.counters;
+    const before = deformer.counters();
     for (const { handle, goal } of entry.goals) reach(handles[handle], goal, this.shape.dimension);
     const { iterations } = await this.#solve(deformer, plan, entry.iterations, onStep);
-    const after = deformer.counters;
+    const after = deformer.counters();
     return {
       factorizations: after.factorizations - before.factorizations,
       analyses: after.analyses - before.analyses,

@@ -1,0 +1,212 @@
+// The objects of pliant/worker: as those of the package, but every call is a promise.
+
+import { coordinates, type FloatArray, output, Place, vertexIds } from "../check.js";
+import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deformer.js";
+import type { DeformerOptions } from "../methods/index.js";
+import type { MeasureOptions, Quality } from "../quality.js";
+import type { EditOptions, EditResult, EditScript } from "../script/types.js";
+import type { Selection } from "../selection.js";
+import type { ShapeInput, ShapeReport } from "../shape.js";
+import type { State } from "../state.js";
+import type { Transform } from "../transform.js";
+import { disposeSymbol } from "../core.js";
+import { type Line, split } from "./line.js";
+import type { Reference } from "./protocol.js";
+
+/** An object that lives in the worker. */
+class Remote {
+  readonly #line: Line;
+  readonly #object: number;
+
+  /** @internal */
+  constructor(line: Line, reference: Reference) {
+    this.#line = line;
+    this.#object = reference.object;
+    if (reference.object !== 0) line.keep(this, reference);
+  }
+
+  /** @internal */
+  call<T>(method: string, ...args: unknown[]): Promise<T> {
+    return this.#line.call(this.#object, method, args.map((arg) => (arg instanceof Remote ? { object: arg.#object } : arg)));
+  }
+
+  /** A call whose last argument holds options with functions or a signal. @internal */
+  callWith<T>(method: string, options: unknown, ...args: unknown[]): Promise<T> {
+    const { sent, local } = split(options);
+    const values = [...args, sent].map((arg) => (arg instanceof Remote ? { object: arg.#object } : arg));
+    return this.#line.call(this.#object, method, values, local);
+  }
+
+  /** @internal */
+  get line(): Line {
+    return this.#line;
+  }
+}
+
+/** See {@link Pliant}. */
+export class WorkerPliant extends Remote {
+  async shape(input: ShapeInput): Promise<WorkerShape> {
+    return new WorkerShape(this.line, await this.call<Reference>("shape", input));
+  }
+
+  async deformer(shape: WorkerShape, options: DeformerOptions): Promise<WorkerDeformer> {
+    return new WorkerDeformer(this.line, await this.call<Reference>("deformer", shape, options), shape);
+  }
+
+  measure(shape: WorkerShape, positions: ArrayLike<number>, options?: MeasureOptions): Promise<Quality> {
+    return this.call("measure", shape, positions, options);
+  }
+
+  edit(shape: WorkerShape, script: EditScript, options: EditOptions = {}): Promise<EditResult> {
+    return this.callWith("edit", options, shape, script);
+  }
+
+  /** Ends the worker. Every later call, on any object of it, is a `disposed` error. */
+  dispose(): void {
+    this.line.close("the worker is disposed; expected a live one");
+  }
+
+  [disposeSymbol](): void {
+    this.dispose();
+  }
+}
+
+/** See {@link Shape}. */
+export class WorkerShape extends Remote {
+  readonly report: Readonly<ShapeReport>;
+  readonly dimension: 2 | 3;
+  readonly diagonal: number;
+
+  /** @internal */
+  constructor(line: Line, reference: Reference) {
+    super(line, reference);
+    const { report, dimension, diagonal } = reference.shape!;
+    this.report = Object.freeze(report);
+    this.dimension = dimension;
+    this.diagonal = diagonal;
+  }
+
+  select(selection: Selection): Promise<Uint32Array> {
+    return this.call("select", selection);
+  }
+
+  dispose(): Promise<void> {
+    return this.call("dispose");
+  }
+}
+
+/** See {@link Deformer}. */
+export class WorkerDeformer extends Remote {
+  readonly shape: WorkerShape;
+  readonly method: string;
+
+  /** @internal */
+  constructor(line: Line, reference: Reference, shape: WorkerShape) {
+    super(line, reference);
+    this.shape = shape;
+    this.method = reference.method!;
+  }
+
+  async setFixed(vertices: Iterable<number>): Promise<void> {
+    return this.call("setFixed", this.#ids("fixed", vertices));
+  }
+
+  async addHandle(vertices: Iterable<number>): Promise<WorkerHandle> {
+    const ids = this.#ids("vertices", vertices);
+    return new WorkerHandle(this.line, await this.call<Reference>("addHandle", ids), ids);
+  }
+
+  step(options: StepOptions = {}): Promise<Step> {
+    return this.call("step", options);
+  }
+
+  solve(options: SolveOptions = {}): Promise<Solution> {
+    return this.callWith("solve", options);
+  }
+
+  energy(): Promise<ReturnType<Deformer["energy"]>> {
+    return this.call("energy");
+  }
+
+  counters(): Promise<Counters> {
+    return this.call("counters");
+  }
+
+  positions(): Promise<Float32Array>;
+  positions<T extends FloatArray>(out: T): Promise<T>;
+  positions(out?: FloatArray): Promise<FloatArray> {
+    return this.#into(out, this.shape.report.vertices * this.shape.dimension, "positions");
+  }
+
+  normals(): Promise<Float32Array>;
+  normals<T extends FloatArray>(out: T): Promise<T>;
+  normals(out?: FloatArray): Promise<FloatArray> {
+    return this.#into(out, this.shape.report.vertices * 3, "normals");
+  }
+
+  transformPoints(points: Float32Array): Promise<Float32Array>;
+  transformPoints(points: ArrayLike<number>): Promise<Float64Array>;
+  transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): Promise<T>;
+  async transformPoints(points: ArrayLike<number>, out?: FloatArray): Promise<FloatArray> {
+    const { length } = coordinates(new Place("invalid-option", "points"), points, this.shape.dimension);
+    return this.#into(out, length, "transformPoints", points);
+  }
+
+  state(): Promise<State> {
+    return this.call("state");
+  }
+
+  restore(state: State): Promise<void> {
+    return this.call("restore", state);
+  }
+
+  reset(): Promise<void> {
+    return this.call("reset");
+  }
+
+  dispose(): Promise<void> {
+    return this.call("dispose");
+  }
+
+  /** Results for the caller's array, which stays on this side. */
+  async #into(out: FloatArray | undefined, length: number, method: string, ...args: unknown[]): Promise<FloatArray> {
+    if (out === undefined) return this.call(method, ...args);
+    const place = new Place("invalid-option", "out");
+    output(place, out, length, () => out);
+    const fresh = out instanceof Float64Array ? [{ doubles: length }] : [];
+    out.set(await this.call<FloatArray>(method, ...args, ...fresh));
+    return out;
+  }
+
+  /** An iterable does not travel. */
+  #ids(name: string, vertices: Iterable<number>): Int32Array {
+    return vertexIds(new Place("invalid-handle", name), vertices, this.shape.report.vertices);
+  }
+}
+
+/** See {@link Handle}. */
+export class WorkerHandle extends Remote {
+  readonly #vertices: Int32Array;
+
+  /** @internal */
+  constructor(line: Line, reference: Reference, vertices: Int32Array) {
+    super(line, reference);
+    this.#vertices = vertices;
+  }
+
+  get vertices(): Uint32Array {
+    return Uint32Array.from(this.#vertices);
+  }
+
+  move(transform: Transform): Promise<void> {
+    return this.call("move", transform);
+  }
+
+  moveTo(targets: ArrayLike<number>): Promise<void> {
+    return this.call("moveTo", targets);
+  }
+
+  remove(): Promise<void> {
+    return this.call("remove");
+  }
+}
