@@ -6,20 +6,29 @@
 
 namespace pliant::bindings {
 
-emscripten::val Scratch::doubles(std::uint32_t length) {
-  doubles_.resize(length);
-  return view_of(doubles_);
+namespace {
+
+/// A vector that cannot grow ends the program, so memory is asked for first.
+template <class T>
+emscripten::val resized(std::vector<T>& slot, std::uint32_t length) {
+  if (length > slot.capacity()) {
+    slot = {};
+    const std::uint64_t size = std::uint64_t{length} * sizeof(T);
+    void* memory = size < SIZE_MAX / 2 ? std::malloc(static_cast<std::size_t>(size)) : nullptr;
+    if (!memory) return view_of(slot);
+    std::free(memory);
+  }
+  slot.resize(length);
+  return view_of(slot);
 }
 
-emscripten::val Scratch::integers(std::uint32_t length) {
-  integers_.resize(length);
-  return view_of(integers_);
-}
+}  // namespace
 
-emscripten::val Scratch::bytes(std::uint32_t length) {
-  bytes_.resize(length);
-  return view_of(bytes_);
-}
+emscripten::val Scratch::doubles(std::uint32_t length) { return resized(doubles_, length); }
+
+emscripten::val Scratch::integers(std::uint32_t length) { return resized(integers_, length); }
+
+emscripten::val Scratch::bytes(std::uint32_t length) { return resized(bytes_, length); }
 
 EMSCRIPTEN_BINDINGS(pliant_scratch) {
   using emscripten::select_overload;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <emscripten/val.h>
@@ -14,7 +15,7 @@ namespace pliant::bindings {
 class Scratch {
  public:
   /// Resize a slot and return a view of it, valid until WASM memory next grows: fill it at once.
-  /// The request is a JavaScript number; bindings/js passes lengths of arrays, so it is >= 0.
+  /// Where memory does not suffice the view is empty, so that `.set()` throws a RangeError.
   emscripten::val doubles(std::uint32_t length);
   emscripten::val integers(std::uint32_t length);
   emscripten::val bytes(std::uint32_t length);
@@ -22,6 +23,8 @@ class Scratch {
   const std::vector<double>& doubles() const { return doubles_; }
   const std::vector<std::int32_t>& integers() const { return integers_; }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  /// The bytes without a copy; the slot is then empty.
+  std::vector<std::uint8_t> take_bytes() { return std::exchange(bytes_, {}); }
 
  private:
   std::vector<double> doubles_;

@@ -1,0 +1,47 @@
+#include "pliant/io/obj_faces.h"
+
+#include <istream>
+#include <streambuf>
+#include <vector>
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#define TINYOBJLOADER_USE_DOUBLE
+#include <tiny_obj_loader.h>
+
+namespace pliant::io {
+namespace {
+
+/// Reads a string in place, where std::istringstream would copy it.
+class StringView : public std::streambuf {
+ public:
+  explicit StringView(std::string& text) {
+    setg(text.data(), text.data(), text.data() + text.size());
+  }
+};
+
+struct Relay {
+  ObjFaceVisitor& visitor;
+  std::vector<ObjCorner> corners;
+};
+
+void relay_face(void* user_data, tinyobj::index_t* indices, int count) {
+  auto& relay = *static_cast<Relay*>(user_data);
+  relay.corners.clear();
+  for (int i = 0; i < count; ++i) {
+    relay.corners.push_back({indices[i].vertex_index, indices[i].texcoord_index});
+  }
+  relay.visitor.face(relay.corners);
+}
+
+}  // namespace
+
+void read_obj_faces(std::string& statements, ObjFaceVisitor& visitor) {
+  StringView buffer(statements);
+  std::istream stream(&buffer);
+  Relay relay{visitor, {}};
+  tinyobj::callback_t callbacks;
+  callbacks.index_cb = relay_face;
+  tinyobj::LoadObjWithCallback(stream, callbacks, &relay);
+}
+
+}  // namespace pliant::io
