@@ -1,0 +1,27 @@
+// Downloads: what the session holds, as files.
+import { editScript } from "../edit/document.ts";
+import type { Session } from "../edit/session.ts";
+import { writeGlb } from "./write_glb.ts";
+import { writeObj } from "./write_obj.ts";
+
+export type ExportKind = "obj" | "glb" | "script";
+
+/** The user's file without its ending, or the shape's own name. */
+const baseName = ({ id, name }: { id: string; name: string }) => (id === "file" ? name.replace(/\.[^.]*$/, "") : id);
+
+export async function download(session: Session, kind: ExportKind): Promise<void> {
+  const { doc, positions, normals } = session;
+  const base = baseName(doc.shape);
+  if (kind === "obj") save(`${base}-bent.obj`, "model/obj", writeObj(doc.shape, positions));
+  if (kind === "glb") save(`${base}-bent.glb`, "model/gltf-binary", await writeGlb(doc.shape, positions, normals));
+  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(editScript(doc), undefined, 1));
+}
+
+function save(name: string, type: string, content: string | Uint8Array<ArrayBuffer>): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([content], { type }));
+  link.download = name;
+  link.click();
+  // The browser has taken the address by the time the next task runs.
+  setTimeout(() => URL.revokeObjectURL(link.href), 0);
+}

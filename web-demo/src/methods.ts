@@ -1,0 +1,54 @@
+// The table of deformation methods: the page's menus, sliders and scripts are made from it.
+
+/** A numeric option of a method, as the edit script names it. */
+export interface MethodOption {
+  key: string;
+  label: string;
+  /** One sentence for the tooltip. */
+  help: string;
+  min: number;
+  max: number;
+  step: number;
+  value: number;
+}
+
+export interface Method {
+  id: string;
+  label: string;
+  help: string;
+  options: MethodOption[];
+}
+
+export type Options = Readonly<Record<string, number>>;
+
+export const methods: readonly Method[] = [
+  {
+    id: "embedded-graph",
+    label: "Embedded graph",
+    help: "A coarse graph of rotating nodes carries the shape (Sumner, Schmid and Pauly 2007).",
+    options: [
+      { key: "nodeCount", label: "Nodes", help: "How many nodes carry the shape: more follow finer bends.", min: 20, max: 800, step: 10, value: 250 },
+      { key: "neighbours", label: "Nodes a point", help: "How many nodes carry each point: more blend more softly.", min: 2, max: 10, step: 1, value: 4 },
+      { key: "regularizationWeight", label: "Smoothness", help: "How much neighbouring nodes agree.", min: 1, max: 50, step: 1, value: 10 },
+      { key: "rotationWeight", label: "Rigidity", help: "How much each node keeps to a rotation.", min: 0.1, max: 10, step: 0.1, value: 1 },
+    ],
+  },
+];
+
+export function methodOf(id: string): Method {
+  const method = methods.find((m) => m.id === id);
+  if (!method) throw new Error(`There is no method "${id}".`);
+  return method;
+}
+
+export function defaultOptions(method: Method): Options {
+  return Object.fromEntries(method.options.map((o) => [o.key, o.value]));
+}
+
+/** The options a shape of so many vertices can take: never more nodes than vertices. */
+export function fittingOptions(options: Options, vertices: number): Options {
+  if (options["nodeCount"] === undefined) return options;
+  const nodeCount = Math.min(options["nodeCount"], vertices);
+  const neighbours = Math.min(options["neighbours"] ?? 4, Math.max(1, nodeCount - 1));
+  return { ...options, nodeCount, neighbours };
+}

@@ -1,0 +1,50 @@
+// What the page knows about a shape at rest, wherever it came from.
+
+export interface ShapeData {
+  /** Key of the catalog, or "file" for the user's own. */
+  id: string;
+  name: string;
+  /** 3 n coordinates, vertex by vertex; z = 0 throughout where `dimension` is 2. */
+  positions: Float32Array;
+  /** 3 m vertex ids; empty: points. */
+  triangles: Uint32Array;
+  dimension: 2 | 3;
+  /** 3 n sRGB bytes. */
+  colors?: Uint8Array;
+  /** A picture that lies on the shape: 2 n texture coordinates, v up. */
+  picture?: { image: TexImageSource; uv: Float32Array };
+  /** The text of the OBJ file it came from: exports keep everything in it but the coordinates. */
+  objText?: string;
+  /** The pose a visitor finds: regions in rest coordinates. */
+  start?: StartPose;
+  /** Where the camera looks from, a direction; default: from the front, right and above. */
+  viewFrom?: readonly [number, number, number];
+  /** Vertices with no triangle are drawn as dots of this share of the diagonal. */
+  dotSize?: number;
+}
+
+export interface StartPose {
+  fixed: (p: readonly [number, number, number]) => boolean;
+  handles: { name: string; center: readonly [number, number, number]; radius: number }[];
+}
+
+export const vertexCount = (shape: ShapeData): number => shape.positions.length / 3;
+
+export interface Box {
+  min: [number, number, number];
+  max: [number, number, number];
+  center: [number, number, number];
+  diagonal: number;
+}
+
+export function boundingBox(positions: ArrayLike<number>): Box {
+  const min: [number, number, number] = [Infinity, Infinity, Infinity];
+  const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i++) {
+    const k = i % 3;
+    min[k] = Math.min(min[k]!, positions[i]!);
+    max[k] = Math.max(max[k]!, positions[i]!);
+  }
+  const center: [number, number, number] = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
+  return { min, max, center, diagonal: Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) };
+}

@@ -1,0 +1,45 @@
+// What a way of using the pointer is: the toolbar, the input and the keys know nothing else.
+import type { Session } from "../edit/session.ts";
+import type { IconName } from "../ui/icons.ts";
+import type { Hit } from "../view/picking.ts";
+import type { ShapeView } from "../view/shape_view.ts";
+import type { Viewport } from "../view/viewport.ts";
+
+/** What tools work on. */
+export interface Stage {
+  readonly session: Session;
+  readonly viewport: Viewport;
+  readonly view: ShapeView;
+  /** The first hit under a place on the page. */
+  pick(x: number, y: number): Hit | undefined;
+  /** The tool's size in the shape's unit of length. */
+  radius(): number;
+  /** Colours of a stroke that is not done yet; undefined: the document's. */
+  preview(fixed?: ReadonlySet<number>): void;
+  /** A circle of the tool's size at a place on the page, or none. */
+  showBrush(at?: { x: number; y: number; hit: Hit | undefined }): void;
+}
+
+/** A place on the page, in pixels. */
+export interface Pointer {
+  x: number;
+  y: number;
+}
+
+export interface Tool {
+  readonly id: string;
+  readonly label: string;
+  readonly icon: IconName;
+  /** One sentence for the hint line. */
+  readonly hint: string;
+  /** Share of the diagonal at the ends of the size slider, and where it starts (0 to 1); absent: no size. */
+  readonly size?: { min: number; max: number; start: number };
+  /** True: the tool has the pointer until it is up. False: the camera has it. */
+  down(at: Pointer): boolean;
+  move?(at: Pointer): void;
+  up?(): void;
+  /** The pointer moves with no button down; undefined: it left. */
+  hover?(at: Pointer | undefined): void;
+  /** Enter was pressed, with the cross in the middle of the view at `at`. */
+  act?(at: Pointer): void;
+}

@@ -1,0 +1,92 @@
+// Everything around the view that belongs to no tool: history, help, notices, drops, global keys.
+import type { Session } from "../edit/session.ts";
+import { byId } from "./dom.ts";
+import { icon, type IconName } from "./icons.ts";
+
+export interface ChromeActions {
+  undo(): void;
+  redo(): void;
+  reset(): void;
+  home(): void;
+  tool(index: number): void;
+  open(file: File): void;
+}
+
+export interface Chrome {
+  refresh(session: Session): void;
+  hint(text: string): void;
+  /** A notice that stays until dismissed; empty: none. */
+  say(text: string): void;
+}
+
+export function bindChrome(actions: ChromeActions): Chrome {
+  const help = byId<HTMLDialogElement>("help");
+  const notice = byId("notice");
+  const button = (id: string, name: IconName, act: () => void) => {
+    byId(id).append(icon(name));
+    byId(id).addEventListener("click", act);
+  };
+  button("undo", "undo", actions.undo);
+  button("redo", "redo", actions.redo);
+  button("reset", "reset", actions.reset);
+  button("home", "home", actions.home);
+  button("help-open", "help", () => help.showModal());
+  help.querySelector("button")!.append(icon("close"));
+  notice.querySelector("button")!.append(icon("close"));
+  notice.querySelector("button")!.addEventListener("click", () => (notice.hidden = true));
+  bindKeys(actions, help);
+  bindDrop(actions.open);
+  return {
+    refresh: ({ canUndo, canRedo }) => {
+      byId<HTMLButtonElement>("undo").disabled = !canUndo;
+      byId<HTMLButtonElement>("redo").disabled = !canRedo;
+    },
+    hint: (text) => (byId("hint").textContent = text),
+    say: (text) => {
+      notice.hidden = text === "";
+      notice.querySelector("span")!.textContent = text;
+    },
+  };
+}
+
+function bindKeys(actions: ChromeActions, help: HTMLDialogElement): void {
+  const click = (id: string) => () => byId(id).click();
+  const plain: Record<string, () => void> = {
+    r: actions.reset, 0: actions.home, g: click("graph"), w: click("wire"), "?": () => help.showModal(),
+    1: () => actions.tool(0), 2: () => actions.tool(1), 3: () => actions.tool(2), 4: () => actions.tool(3),
+  };
+  document.addEventListener("keydown", (event) => {
+    if (help.open) return;
+    const key = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey) {
+      if (key !== "z" && key !== "y") return;
+      (key === "y" || event.shiftKey ? actions.redo : actions.undo)();
+    } else {
+      const typing = event.target instanceof HTMLSelectElement || event.altKey;
+      const act = typing ? undefined : plain[key];
+      if (!act) return;
+      act();
+    }
+    event.preventDefault();
+  });
+}
+
+function bindDrop(open: (file: File) => void): void {
+  const veil = byId("drop");
+  const hasFile = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
+  document.addEventListener("dragover", (event) => {
+    if (!hasFile(event)) return;
+    event.preventDefault();
+    veil.hidden = false;
+  });
+  document.addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) veil.hidden = true;
+  });
+  document.addEventListener("drop", (event) => {
+    veil.hidden = true;
+    const file = event.dataTransfer?.files[0];
+    if (!file) return;
+    event.preventDefault();
+    open(file);
+  });
+}

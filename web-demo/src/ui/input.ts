@@ -1,0 +1,75 @@
+// Pointer and keys on the view: what the tool does not take is the camera's.
+import type { Stage, Tool } from "../tools/tool.ts";
+import { byId } from "./dom.ts";
+
+export class Input {
+  private holder: number | undefined; // the pointer the tool has
+  private readonly cross = byId("cross");
+
+  constructor(private readonly stage: Stage, private readonly tool: () => Tool) {
+    const { canvas } = stage.viewport;
+    // Before the camera's own listener, on the way down.
+    byId("stage").addEventListener("pointerdown", (event) => this.down(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, (event) => this.up(event));
+    canvas.addEventListener("pointerleave", () => this.tool().hover?.(undefined));
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("focus", () => this.refresh());
+    canvas.addEventListener("blur", () => this.refresh());
+  }
+
+  /** The cross stands in the middle while the keyboard is in the view and the tool can use it. */
+  refresh(): void {
+    const { canvas, middle } = this.stage.viewport;
+    this.cross.style.transform = `translate(${middle.x}px, ${middle.y}px)`;
+    this.cross.hidden = !(canvas.matches(":focus-visible") && this.tool().act);
+    canvas.dataset["tool"] = this.tool().id;
+    this.stage.showBrush();
+  }
+
+  private down(event: PointerEvent): void {
+    const { canvas } = this.stage.viewport;
+    if (event.target !== canvas || event.button !== 0) return;
+    if (this.holder !== undefined) return event.stopPropagation();
+    if (!this.tool().down({ x: event.clientX, y: event.clientY })) return;
+    this.holder = event.pointerId;
+    canvas.setPointerCapture(event.pointerId);
+    event.stopPropagation();
+  }
+
+  private move(event: PointerEvent): void {
+    const at = { x: event.clientX, y: event.clientY };
+    if (event.pointerId === this.holder) this.tool().move?.(at);
+    else if (event.buttons === 0) this.tool().hover?.(at);
+  }
+
+  private up(event: PointerEvent): void {
+    if (event.pointerId !== this.holder) return;
+    this.holder = undefined;
+    this.tool().up?.();
+    if (event.pointerType !== "mouse") this.tool().hover?.(undefined);
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const { viewport } = this.stage;
+    const step = event.shiftKey ? 0.4 : 0.1;
+    switch (event.key) {
+      case "ArrowLeft": viewport.orbit(-step, 0); break;
+      case "ArrowRight": viewport.orbit(step, 0); break;
+      case "ArrowUp": viewport.orbit(0, -step); break;
+      case "ArrowDown": viewport.orbit(0, step); break;
+      case "+": case "=": viewport.zoom(0.9); break;
+      case "-": viewport.zoom(1 / 0.9); break;
+      case "Enter": case " ": this.act(); break;
+      default: return;
+    }
+    event.preventDefault();
+  }
+
+  private act(): void {
+    const { canvas, middle } = this.stage.viewport;
+    const box = canvas.getBoundingClientRect();
+    this.tool().act?.({ x: box.left + middle.x, y: box.top + middle.y });
+  }
+}

@@ -1,0 +1,90 @@
+// The settings beside the view: shape, method and its options, what is shown, export.
+import type { Session } from "../edit/session.ts";
+import { download, type ExportKind } from "../files/export.ts";
+import { methodOf, methods } from "../methods.ts";
+import { catalog } from "../shapes/catalog.ts";
+import { byId, make } from "./dom.ts";
+
+export interface PanelActions {
+  openEntry(id: string): void;
+  openFile(file: File): void;
+  watchGraph(on: boolean): void;
+  wireframe(on: boolean): void;
+  problem(error: Error): void;
+}
+
+export class Panel {
+  private readonly shapes = byId("shapes").querySelector(".chips")!;
+  private readonly choice = byId<HTMLSelectElement>("method-choice");
+  private readonly options = byId("options");
+  private shownMethod = "";
+
+  constructor(private readonly session: Session, private readonly actions: PanelActions) {
+    for (const { id, name } of catalog) this.addShape(id, name);
+    for (const { id, label, help } of methods) this.choice.append(make("option", { value: id, title: help }, label));
+    this.choice.addEventListener("change", () => void session.setMethod(this.choice.value));
+    const file = byId<HTMLInputElement>("file");
+    file.addEventListener("change", () => {
+      if (file.files?.[0]) actions.openFile(file.files[0]);
+      file.value = "";
+    });
+    this.check("graph", actions.watchGraph);
+    this.check("wire", actions.wireframe);
+    for (const kind of ["obj", "glb", "script"] as ExportKind[]) {
+      byId(`export-${kind}`).addEventListener("click", () => download(session, kind).catch(actions.problem));
+    }
+    const toggle = byId("panel-toggle");
+    const narrow = matchMedia("(max-width: 720px)");
+    const open = (on: boolean) => toggle.setAttribute("aria-expanded", String(on));
+    toggle.addEventListener("click", () => open(toggle.getAttribute("aria-expanded") === "false"));
+    narrow.addEventListener("change", () => open(!narrow.matches));
+    open(!narrow.matches);
+  }
+
+  private addShape(id: string, name: string): HTMLInputElement {
+    const radio = make("input", { type: "radio", name: "shape", value: id });
+    radio.addEventListener("change", () => this.actions.openEntry(id));
+    this.shapes.append(make("label", {}, radio, make("span", {}, name)));
+    return radio;
+  }
+
+  private check(id: string, set: (on: boolean) => void): void {
+    const box = byId<HTMLInputElement>(id);
+    box.addEventListener("change", () => set(box.checked));
+  }
+
+  /** Matches the controls with the document. */
+  refresh(): void {
+    const { doc } = this.session;
+    const known = catalog.some((entry) => entry.id === doc.shape.id);
+    for (const radio of this.shapes.querySelectorAll("input")) {
+      radio.checked = known && radio.value === doc.shape.id;
+    }
+    byId("shapes").querySelector(".file span")!.textContent = known ? "Open a file…" : `${doc.shape.name} · open another…`;
+    this.choice.value = doc.method;
+    if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
+    for (const input of this.options.querySelectorAll("input")) {
+      const value = String(doc.options[input.name]);
+      if (document.activeElement === input && input.dataset["dragged"]) continue;
+      input.value = value;
+      (input.previousElementSibling as HTMLOutputElement).value = value;
+    }
+  }
+
+  private makeOptions(method: string): void {
+    this.shownMethod = method;
+    this.options.replaceChildren(...methodOf(method).options.map(({ key, label, help, min, max, step }) => {
+      const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${min}`, max: `${max}`, step: `${step}` });
+      const output = make("output", { for: `option-${key}` });
+      input.addEventListener("input", () => {
+        output.value = input.value;
+        input.dataset["dragged"] = "yes";
+      });
+      input.addEventListener("change", () => {
+        delete input.dataset["dragged"];
+        this.session.setOption(key, Number(input.value)).catch(this.actions.problem);
+      });
+      return make("label", { class: "option", title: help }, label, output, input);
+    }));
+  }
+}

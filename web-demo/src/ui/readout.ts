@@ -1,0 +1,43 @@
+// Figures of the present: what the solver did and what it did to the shape.
+import type { Session } from "../edit/session.ts";
+import { byId, make } from "./dom.ts";
+
+const percent = (x: number | undefined) => (x === undefined ? "–" : `${(100 * x).toFixed(1)} %`);
+
+function figure(x: number | undefined): string {
+  if (x === undefined) return "–";
+  if (x === 0) return "0";
+  return x < 1e-3 || x >= 1e5 ? x.toExponential(2) : x.toPrecision(4);
+}
+
+export class Readout {
+  private readonly values = new Map<string, HTMLElement>();
+
+  constructor(private readonly session: Session) {
+    const list = byId("readout");
+    for (const [id, label] of [
+      ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"], ["volume", "Volume"],
+      ["stretch", "Mean stretch"], ["vertices", "Vertices"],
+    ] as const) {
+      const value = make("dd", { id: `readout-${id}` }, "–");
+      list.append(make("dt", {}, label), value);
+      this.values.set(id, value);
+    }
+  }
+
+  refresh(): void {
+    const { step, report } = this.session;
+    const { stretch, volume } = this.session.measures();
+    this.set("energy", figure(step?.energy));
+    this.set("iterations", step ? String(step.iteration) : "–");
+    this.set("ms", step ? `${step.milliseconds.toFixed(1)} ms` : "–");
+    this.set("volume", percent(volume));
+    this.set("stretch", percent(stretch));
+    this.set("vertices", report.vertices.toLocaleString("en"));
+  }
+
+  private set(id: string, text: string): void {
+    const element = this.values.get(id)!;
+    if (element.textContent !== text) element.textContent = text;
+  }
+}

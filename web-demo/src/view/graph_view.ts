@@ -1,0 +1,115 @@
+// The deformation graph over the shape: nodes coloured by their share of the energy, and edges.
+import {
+  BufferAttribute, BufferGeometry, Color, Group, IcosahedronGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4,
+  MeshBasicMaterial,
+} from "three";
+import type { State } from "../solver/pliant.ts";
+
+const calm = new Color(0x2f6df0);
+const strained = new Color(0xff3d3d);
+
+export interface GraphState {
+  nodes: ArrayLike<ArrayLike<number>>;
+  edges: ArrayLike<ArrayLike<number>>;
+  rotations: ArrayLike<ArrayLike<number>>;
+  translations: ArrayLike<ArrayLike<number>>;
+}
+
+/** A state that holds a graph of nodes, whatever the method. */
+export function graphIn(state: State | undefined): GraphState | undefined {
+  const graph = state as Partial<GraphState> | undefined;
+  return graph?.nodes && graph.edges && graph.rotations && graph.translations ? (graph as GraphState) : undefined;
+}
+
+/** What each node adds to E_rot + 10 E_reg of Sumner et al. 2007 (eq. 5 and 7, each edge half to either end), a length one unit. */
+export function nodeEnergies({ nodes, edges, rotations, translations }: GraphState, unit: number): Float64Array {
+  const energy = new Float64Array(nodes.length);
+  for (let j = 0; j < nodes.length; j++) {
+    const r = rotations[j]!;
+    const column = (a: number, b: number) => r[a]! * r[b]! + r[a + 3]! * r[b + 3]! + r[a + 6]! * r[b + 6]!;
+    energy[j] = column(0, 1) ** 2 + column(0, 2) ** 2 + column(1, 2) ** 2 +
+      (column(0, 0) - 1) ** 2 + (column(1, 1) - 1) ** 2 + (column(2, 2) - 1) ** 2;
+  }
+  const term = (j: number, k: number): number => {
+    let sum = 0;
+    for (let a = 0; a < 3; a++) {
+      let predicted = nodes[j]![a]! + translations[j]![a]!;
+      for (let b = 0; b < 3; b++) predicted += rotations[j]![3 * a + b]! * (nodes[k]![b]! - nodes[j]![b]!);
+      sum += ((predicted - nodes[k]![a]! - translations[k]![a]!) / unit) ** 2;
+    }
+    return 10 * sum;
+  };
+  for (let e = 0; e < edges.length; e++) {
+    const [j, k] = [edges[e]![0]!, edges[e]![1]!];
+    const share = (term(j, k) + term(k, j)) / 2;
+    energy[j]! += share;
+    energy[k]! += share;
+  }
+  return energy;
+}
+
+export class GraphView {
+  readonly group = new Group();
+  private nodes: InstancedMesh | undefined;
+  private readonly lines: LineSegments;
+
+  constructor() {
+    const material = new LineBasicMaterial({ color: 0x2b4a9b, transparent: true, opacity: 0.45, depthTest: false });
+    this.lines = new LineSegments(new BufferGeometry(), material);
+    this.lines.frustumCulled = false;
+    this.lines.renderOrder = 1;
+    this.group.add(this.lines);
+  }
+
+  /** Draws a graph, or nothing; `diagonal` is the shape's. */
+  show(graph: GraphState | undefined, diagonal: number): void {
+    this.group.visible = graph !== undefined;
+    if (!graph) return;
+    const at = (j: number): [number, number, number] => [0, 1, 2].map((k) => graph.nodes[j]![k]! + graph.translations[j]![k]!) as [number, number, number];
+    this.showEdges(graph, at);
+    this.showNodes(graph, at, diagonal);
+  }
+
+  private showEdges(graph: GraphState, at: (j: number) => [number, number, number]): void {
+    const ends = new Float32Array(6 * graph.edges.length);
+    for (let e = 0; e < graph.edges.length; e++) {
+      ends.set(at(graph.edges[e]![0]!), 6 * e);
+      ends.set(at(graph.edges[e]![1]!), 6 * e + 3);
+    }
+    const current = this.lines.geometry.getAttribute("position") as BufferAttribute | undefined;
+    if (current?.array.length === ends.length) {
+      current.array.set(ends);
+      current.needsUpdate = true;
+    } else {
+      this.lines.geometry.dispose();
+      this.lines.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(ends, 3));
+    }
+  }
+
+  private showNodes(graph: GraphState, at: (j: number) => [number, number, number], diagonal: number): void {
+    const count = graph.nodes.length;
+    if (this.nodes?.count !== count) this.makeNodes(count);
+    const nodes = this.nodes!;
+    const size = (0.03 * diagonal) / Math.sqrt(Math.max(count, 30) / 30);
+    const energies = nodeEnergies(graph, diagonal / Math.sqrt(count));
+    const color = new Color();
+    for (let j = 0; j < count; j++) {
+      nodes.setMatrixAt(j, new Matrix4().makeScale(size, size, size).setPosition(...at(j)));
+      nodes.setColorAt(j, color.lerpColors(calm, strained, Math.min(1, Math.sqrt(energies[j]! * 8))));
+    }
+    nodes.instanceMatrix.needsUpdate = true;
+    nodes.instanceColor!.needsUpdate = true;
+  }
+
+  private makeNodes(count: number): void {
+    if (this.nodes) {
+      this.group.remove(this.nodes);
+      this.nodes.dispose();
+    }
+    const material = new MeshBasicMaterial({ depthTest: false, transparent: true });
+    this.nodes = new InstancedMesh(new IcosahedronGeometry(0.5, 2), material, count);
+    this.nodes.frustumCulled = false;
+    this.nodes.renderOrder = 2;
+    this.group.add(this.nodes);
+  }
+}

@@ -1,0 +1,148 @@
+// The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
+import {
+  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, Group, Material, Mesh, MeshStandardMaterial, Points,
+  PointsMaterial, SRGBColorSpace, Texture,
+} from "three";
+import type { Doc } from "../edit/document.ts";
+import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
+
+type Color = readonly [number, number, number];
+
+/** sRGB bytes. */
+const clay: Color = [222, 206, 186];
+const fixedTint: Color = [58, 82, 178];
+const heldTint: Color = [255, 146, 43];
+
+/** The renderer multiplies in linear light. */
+const linear = Float32Array.from({ length: 256 }, (_, c) => {
+  const x = c / 255;
+  return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
+});
+
+export class ShapeView {
+  readonly group = new Group();
+  private shape: ShapeData | undefined;
+  private geometry = new BufferGeometry();
+  private base: Uint8Array = new Uint8Array(0);
+  object: Mesh | Points | undefined;
+
+  /** Takes a shape on; its geometry from before is freed. */
+  show(shape: ShapeData): void {
+    this.clear();
+    this.shape = shape;
+    this.base = baseColors(shape);
+    this.geometry = new BufferGeometry();
+    const empty = () => new BufferAttribute(new Float32Array(shape.positions.length), 3);
+    this.geometry.setAttribute("position", empty());
+    this.geometry.setAttribute("normal", empty());
+    this.geometry.setAttribute("color", empty());
+    if (shape.picture) this.geometry.setAttribute("uv", new BufferAttribute(shape.picture.uv, 2));
+    this.object = shape.triangles.length > 0 ? this.surface(shape) : this.dots(shape);
+    this.object.frustumCulled = false;
+    this.group.add(this.object);
+  }
+
+  private surface(shape: ShapeData): Mesh {
+    this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
+    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0, side: DoubleSide });
+    if (shape.picture) {
+      material.map = pictureTexture(shape.picture.image);
+      material.roughness = 0.9;
+      material.alphaTest = 0.4;
+    }
+    const mesh = new Mesh(this.geometry, material);
+    mesh.castShadow = true;
+    mesh.receiveShadow = shape.dimension === 3;
+    return mesh;
+  }
+
+  private dots(shape: ShapeData): Points {
+    const size = (shape.dotSize ?? 0.006) * boundingBox(shape.positions).diagonal;
+    const material = new PointsMaterial({ vertexColors: true, size, sizeAttenuation: true, map: disc(), alphaTest: 0.5 });
+    const points = new Points(this.geometry, material);
+    points.castShadow = true;
+    return points;
+  }
+
+  private clear(): void {
+    if (!this.object) return;
+    this.group.remove(this.object);
+    this.geometry.dispose();
+    const material = this.object.material as MeshStandardMaterial | PointsMaterial;
+    material.map?.dispose();
+    material.dispose();
+  }
+
+  update(positions: Float32Array, normals: Float32Array): void {
+    this.write("position", positions);
+    this.write("normal", normals);
+    this.geometry.boundingSphere = null; // picking computes it again
+    this.geometry.boundingBox = null;
+  }
+
+  private write(name: string, values: Float32Array): void {
+    const attribute = this.geometry.getAttribute(name) as BufferAttribute;
+    attribute.array.set(values);
+    attribute.needsUpdate = true;
+  }
+
+  /** Colours from the constraints; `brush`: vertices a stroke has touched that is not done yet. */
+  paint(doc: Doc, brush?: { fixed: ReadonlySet<number> }): void {
+    const colors = this.geometry.getAttribute("color") as BufferAttribute;
+    const out = colors.array as Float32Array;
+    for (let i = 0; i < out.length; i++) out[i] = linear[this.base[i]!]!;
+    for (const v of brush?.fixed ?? doc.fixed) this.tint(out, v, fixedTint, 0.72);
+    for (const handle of doc.handles) for (const v of handle.vertices) this.tint(out, v, heldTint, 0.62);
+    colors.needsUpdate = true;
+  }
+
+  private tint(out: Float32Array, v: number, color: Color, share: number): void {
+    for (let k = 0; k < 3; k++) out[3 * v + k] = linear[Math.round((1 - share) * this.base[3 * v + k]! + share * color[k]!)]!;
+  }
+
+  setWireframe(on: boolean): void {
+    if (this.object instanceof Mesh) (this.object.material as MeshStandardMaterial).wireframe = on;
+  }
+
+  /** Lets what lies inside shine through. */
+  setVeiled(on: boolean): void {
+    const material = this.object?.material as Material | undefined;
+    if (!material || this.object instanceof Points) return;
+    material.transparent = on;
+    material.opacity = on ? 0.45 : 1;
+    material.depthWrite = !on;
+    material.needsUpdate = true;
+  }
+
+  get isPoints(): boolean {
+    return this.shape !== undefined && this.shape.triangles.length === 0;
+  }
+}
+
+function baseColors(shape: ShapeData): Uint8Array {
+  if (shape.colors) return shape.colors;
+  const color: Color = shape.picture ? [255, 255, 255] : clay;
+  const out = new Uint8Array(3 * vertexCount(shape));
+  for (let i = 0; i < out.length; i++) out[i] = color[i % 3]!;
+  return out;
+}
+
+function pictureTexture(image: TexImageSource): Texture {
+  const texture = new Texture(image as HTMLImageElement);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** A round dot for points. */
+function disc(): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.fillStyle = "#fff";
+  context.beginPath();
+  context.arc(32, 32, 31, 0, 2 * Math.PI);
+  context.fill();
+  return new CanvasTexture(canvas);
+}
