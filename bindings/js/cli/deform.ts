@@ -1,0 +1,142 @@
+// pliant deform: an edit script over a shape, and the files that come of it.
+
+import { open, readFile } from "node:fs/promises";
+import type { Core } from "../core.js";
+import { PliantError } from "../errors.js";
+import type { Pliant } from "../pliant.js";
+import { readScript, type ScriptPlan } from "../script/read.js";
+import { type FinishedEdit, reportOf, runFrames } from "../script/run.js";
+import type { EditProgress, EditReport } from "../script/types.js";
+import type { Shape } from "../shape.js";
+import { Failure, onFile } from "./failure.js";
+import { ShapeRewriter } from "./io.js";
+import { parseJson } from "./json.js";
+import type { Outputs } from "./outputs.js";
+import { Progress } from "./progress.js";
+import { formatOf, readShape, type ShapeFile, streamable } from "./shapes.js";
+import type { Invocation } from "./usage.js";
+
+const pieceSize = 4 << 20;
+
+/** Writes into `outputs`, which the caller keeps or discards. */
+export async function deform(pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal): Promise<void> {
+  const { operands: [shapePath], files, flags } = invocation;
+  checkCarry(files.carry, files["carry-out"]);
+  const format = formatOf(files.out!);
+  const file = await readShape(shapePath);
+  const shape = await onFile(shapePath, () => pliant.shape({ positions: file.mesh.positions, triangles: file.mesh.triangles }));
+  const plan = await readPlan(files.script!, shape);
+  const frames = new Frames(file, files.out!, format, plan, outputs);
+  const progress = new Progress(flags.quiet === true);
+  try {
+    const reports: NonNullable<EditReport["frames"]> = [];
+    await onScript(files.script!, async () => {
+      for await (const edit of runFrames(core, shape, plan, { signal, onProgress: (p) => showSolve(progress, p) })) {
+        reports.push({ time: edit.time, steps: edit.steps, quality: edit.quality });
+        await frames.add(edit);
+        if (reports.length < (plan.frames ?? 1)) continue;
+        if (files.state) await outputs.write(files.state, JSON.stringify(edit.state));
+        if (files.carry) await carry(edit, files.carry, files["carry-out"]!, outputs, progress, signal);
+      }
+    });
+    await frames.finish();
+    if (files.report) await outputs.write(files.report, `${JSON.stringify(reportOf(shape, reports, plan), null, 2)}\n`);
+  } finally {
+    progress.clear();
+  }
+}
+
+function checkCarry(from: string | undefined, to: string | undefined): void {
+  if ((from === undefined) !== (to === undefined)) throw new Failure("--carry and --carry-out go together; see pliant --help");
+  if (from === undefined || to === undefined) return;
+  const format = formatOf(from, streamable);
+  if (formatOf(to, streamable) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+}
+
+async function readPlan(path: string, shape: Shape): Promise<ScriptPlan> {
+  return onFile(path, async () => {
+    const script = parseJson(path, await readFile(path, "utf8"));
+    return readScript(script, { count: shape.report.vertices, dimension: shape.dimension });
+  });
+}
+
+/** Errors of the edit name the script; those of files name theirs already. */
+async function onScript(path: string, work: () => Promise<void>): Promise<void> {
+  try {
+    await work();
+  } catch (error) {
+    if (!(error instanceof PliantError) || error.code === "aborted") throw error;
+    throw new Failure(`${path}: ${error.message}`, { cause: error });
+  }
+}
+
+function showSolve(progress: Progress, { frame, frames, step, steps, iteration, energy }: EditProgress): void {
+  const done = (frame + step / steps) / frames;
+  const where = [frames > 1 && `frame ${frame + 1}/${frames}`, steps > 1 && `step ${step + 1}/${steps}`, `iteration ${iteration}`];
+  progress.show(done, 1, `${where.filter(Boolean).join(", ")}, energy ${energy.toPrecision(4)}`);
+}
+
+/** Where the frames of a script go: one file, numbered files, or one animated .glb. */
+class Frames {
+  readonly #kept: { positions: Float64Array; time: number }[] = [];
+  readonly #animated: boolean;
+  #count = 0;
+
+  constructor(readonly file: ShapeFile, readonly out: string, readonly format: string, readonly plan: ScriptPlan, readonly outputs: Outputs) {
+    const numbered = /%0?\d*d/.test(out);
+    this.#animated = plan.frames !== undefined && format === "glb" && !numbered;
+    if (plan.frames !== undefined && !numbered && !this.#animated) {
+      throw new Failure(`${out}: the script has keyframes; expected a pattern as frame_%04d.${format}, or one .glb`);
+    }
+  }
+
+  async add({ positions, time }: FinishedEdit): Promise<void> {
+    if (this.#animated) this.#kept.push({ positions, time });
+    else await this.outputs.write(this.#path(), await this.#encoded(() => this.file.write(this.format, positions)));
+    ++this.#count;
+  }
+
+  async finish(): Promise<void> {
+    if (!this.#animated) return;
+    const times = this.#kept.map(({ time }) => time - this.#kept[0].time);
+    const frames = this.#kept.map(({ positions }) => positions);
+    await this.outputs.write(this.out, await this.#encoded(() => this.file.animate(frames, times)));
+  }
+
+  /** Printed as in C: %d, %4d, %04d. */
+  #path(): string {
+    if (this.plan.frames === undefined) return this.out;
+    return this.out.replace(/%(0?)(\d*)d/, (_, zero, width) => String(this.#count + 1).padStart(Number(width), zero || " "));
+  }
+
+  /** What cannot be written is a fault of the output's format. */
+  #encoded(encode: () => Promise<Uint8Array>): Promise<Uint8Array> {
+    return onFile(this.out, encode);
+  }
+}
+
+/** Passes a file through the finished deformation, in memory bounded by the size of a piece. */
+async function carry(edit: FinishedEdit, from: string, to: string, outputs: Outputs, progress: Progress, signal: AbortSignal): Promise<void> {
+  const source = await onFile(from, () => open(from));
+  try {
+    const target = await outputs.open(to);
+    try {
+      const rewriter = await ShapeRewriter.open(formatOf(from));
+      const total = (await source.stat()).size;
+      const buffer = new Uint8Array(pieceSize);
+      for (let done = 0, last = false; !last; ) {
+        signal.throwIfAborted();
+        const { bytesRead } = await onFile(from, () => source.read(buffer));
+        last = bytesRead === 0;
+        done += bytesRead;
+        const written = await onFile(from, () => rewriter.push(buffer.subarray(0, bytesRead), last, edit.carry));
+        await onFile(to, () => target.writeFile(written));
+        progress.show(done, total, `carrying ${from}`);
+      }
+    } finally {
+      await target.close();
+    }
+  } finally {
+    await source.close();
+  }
+}
