@@ -8,17 +8,22 @@ import { dirname, join } from "node:path";
 import { Failure, heading, isProgram, main, root, run } from "./run.mjs";
 import { setup } from "./setup.mjs";
 
+const modules = ["pliant", "pliant-io"].flatMap((name) =>
+  [".mjs", ".wasm"].map((extension) => `build/wasm/bindings/wasm/${name}${extension}`));
+const packageInputs = ["bindings/js", ...modules, "package.json", "package-lock.json"];
+
 /** Sets up and builds everything `npm start` serves and `npm pack` packs. */
 export async function build() {
   await setup("build");
   await buildTargets("wasm", ["pliant_wasm", "pliant_io_wasm"]);
   await step("package", {
-    inputs: ["bindings/js", "build/wasm/bindings", "package.json", "package-lock.json"],
-    outputs: ["dist/pliant.js", "dist/pliant.wasm", "dist/cli.js", "dist/types/index.d.ts"],
+    inputs: packageInputs,
+    outputs: ["pliant.js", "inline.js", "worker.js", "three.js", "cli.js", "pliant.wasm", "pliant-io.wasm", "types/index.d.ts"]
+      .map((name) => `dist/${name}`),
     action: async () => (await import("../bindings/js/build.mjs")).buildPackage(),
   });
   await step("demo page", {
-    inputs: ["web-demo", "dist/inline.js", "dist/worker.js", "dist/three.js", "package-lock.json"],
+    inputs: ["web-demo", ...packageInputs],
     outputs: ["dist/demo/index.html"],
     action: async () => (await import("../web-demo/build.mjs")).buildDemo(),
   });

@@ -44,7 +44,7 @@ function readOptions(args) {
 function fileFor(folder, url) {
   let path;
   try {
-    path = decodeURIComponent(new URL(url, "http://localhost").pathname);
+    path = decodeURIComponent(url.replace(/[?#].*/, ""));
   } catch {
     return null;
   }
