@@ -114,7 +114,7 @@ class PointTable {
   static std::size_t hash(const Eigen::Vector3d& position) {
     std::uint64_t mixed = 0;
     for (const double coordinate : position) {
-      mixed = (mixed ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+      mixed = (mixed ^ Eigen::numext::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
       mixed ^= mixed >> 32;
     }
     return static_cast<std::size_t>(mixed);

@@ -1,0 +1,113 @@
+#include "pliant/geometry/canonical_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace pliant {
+namespace {
+
+constexpr double tie = 1e-9;             // of the root mean square distance from the centroid
+constexpr double least_gap = 1e-5;       // between variances, of the largest one
+constexpr double least_skewness = 1e-9;  // of a third moment, in units of the largest variance^1.5
+
+/// Rows: directions that move with the shape where it has such, else the input's axes.
+Eigen::Matrix3d intrinsic_frame(const Points& centered) {
+  const Eigen::Matrix3d covariance =
+      centered * centered.transpose() / static_cast<double>(centered.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const Eigen::Vector3d& variance = eigen.eigenvalues();
+  if (std::min(variance[1] - variance[0], variance[2] - variance[1]) <= least_gap * variance[2]) {
+    return Eigen::Matrix3d::Identity();
+  }
+  Eigen::Matrix3d axes = eigen.eigenvectors().transpose();
+  int signless = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double third_moment =
+        (axes.row(axis) * centered).array().cube().mean() / std::pow(variance[2], 1.5);
+    if (std::abs(third_moment) > least_skewness) {
+      axes.row(axis) *= third_moment > 0 ? 1 : -1;
+    } else if (signless < 0) {
+      signless = axis;
+    } else {
+      return Eigen::Matrix3d::Identity();  // a half turn may be a symmetry
+    }
+  }
+  // A mirror plane leaves one sign open; turning the scene keeps the frame right-handed.
+  if (signless >= 0 && axes.determinant() < 0) {
+    axes.row(signless) *= -1;
+  }
+  return axes;
+}
+
+class Sorter {
+ public:
+  explicit Sorter(const Shape& shape) : points_(shape.points()) {
+    const Eigen::Vector3d centroid = points_.rowwise().mean();
+    centered_ = points_.colwise() - centroid;
+    frame_ = intrinsic_frame(centered_);
+    tolerance_ = tie * std::sqrt(centered_.colwise().squaredNorm().mean());
+  }
+
+  std::vector<Index> sorted() {
+    std::vector<Keyed> all(points_.cols());
+    for (Index p = 0; p < points_.cols(); ++p) {
+      all[p].second = p;
+    }
+    sort(all, 0);
+    std::vector<Index> order(all.size());
+    std::transform(all.begin(), all.end(), order.begin(), [](const Keyed& k) { return k.second; });
+    return order;
+  }
+
+ private:
+  using Keyed = std::pair<double, Index>;
+  static constexpr int levels = 4;  // the distance, then three coordinates
+
+  double key(Index p, int level) const {
+    return level == 0 ? centered_.col(p).norm() : frame_.row(level - 1).dot(centered_.col(p));
+  }
+
+  /// Sorts by the key of `level`, and runs whose keys follow each other within the tolerance by the
+  /// next one; in the end by the exact input coordinates, which no two points share.
+  void sort(std::span<Keyed> range, int level) {
+    if (level == levels) {
+      std::sort(range.begin(), range.end(), [this](const Keyed& a, const Keyed& b) {
+        return std::lexicographical_compare(
+            points_.col(a.second).begin(), points_.col(a.second).end(),
+            points_.col(b.second).begin(), points_.col(b.second).end());
+      });
+      return;
+    }
+    for (Keyed& entry : range) {
+      entry.first = key(entry.second, level);
+    }
+    std::sort(range.begin(), range.end());
+    for (std::size_t begin = 0; begin < range.size();) {
+      std::size_t end = begin + 1;
+      while (end < range.size() && range[end].first - range[end - 1].first <= tolerance_) {
+        ++end;
+      }
+      if (end - begin > 1) {
+        sort(range.subspan(begin, end - begin), level + 1);
+      }
+      begin = end;
+    }
+  }
+
+  const Points& points_;
+  Points centered_;
+  Eigen::Matrix3d frame_;
+  double tolerance_;
+};
+
+}  // namespace
+
+std::vector<Index> canonical_order(const Shape& shape) { return Sorter(shape).sorted(); }
+
+}  // namespace pliant
