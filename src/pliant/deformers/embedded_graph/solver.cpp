@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "pliant/deformers/embedded_graph/barrier.h"
 #include "pliant/geometry/closest_rotation.h"
 
 namespace pliant::embedded {
@@ -21,6 +22,8 @@ constexpr double kRotationMetric = 1.5;
 /// In exact mode the constraints are stiffer by this factor, so that the multipliers settle at
 /// once.
 constexpr double kExactStiffness = 100.0;
+/// A start with a node below this is mended: the barrier needs one inside.
+constexpr double kLeastDeterminant = 1e-3;
 /// Turns of the constraints below this (radians) need no prediction.
 constexpr double kSmallTurn = 0.05;
 
@@ -42,6 +45,17 @@ std::array<double, 4> determinant_along(const Eigen::Matrix3d& r, const Eigen::M
            b.col(0).dot(b.col(1).cross(a.col(2)));
   };
   return {r.determinant(), mixed(d, r), mixed(r, d), d.determinant()};
+}
+
+double value_at(const std::array<double, 4>& cubic, double alpha) {
+  return cubic[0] + alpha * (cubic[1] + alpha * (cubic[2] + alpha * cubic[3]));
+}
+
+/// Derivative of the determinant: d det(R) = <cofactors, dR>.
+Eigen::Matrix3d cofactors(const Eigen::Matrix3d& r) {
+  Eigen::Matrix3d c;
+  c << r.col(1).cross(r.col(2)), r.col(2).cross(r.col(0)), r.col(0).cross(r.col(1));
+  return c;
 }
 
 Index find_root(std::vector<Index>& parent, Index j) {
@@ -71,6 +85,13 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
     for (int a = 0; a < 3; ++a) {
       for (int c = 0; c < 4; ++c)
         energy_.entry(x_, a, j)[c] = pose(4 * a + c, energy_.node_of_free()[j]);
+    }
+  }
+  for (Index j = 0; j < energy_.free_nodes(); ++j) {
+    // A pose from elsewhere may hold reflections.
+    const Eigen::Matrix3d r = affine_part(j);
+    if (r.determinant() < kLeastDeterminant) {
+      set_displacement_gradient(j, closest_rotation(r) - Eigen::Matrix3d::Identity());
     }
   }
   for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
@@ -144,12 +165,12 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
   });
   if (!beyond_half_turn) predict_rigid();
   predict_turns(turns, beyond_half_turn);
-  energy_.half_gradient(x_, gradient_);
+  update_gradient();
 }
 
 bool GraphSolver::keep_if_lower(double previous_total) {
   energy_.evaluate(x_);
-  if (energy_.total() < previous_total) {
+  if (energy_.total() < previous_total && std::isfinite(barrier())) {
     memory_.clear();
     return true;
   }
@@ -188,9 +209,12 @@ void GraphSolver::predict_rigid() {
 void GraphSolver::turn_node(Index j, const Eigen::Matrix3d& rotation) {
   // U' = Q (I + U) - I, in displacements.
   const Eigen::Matrix3d u = energy_.displacement_gradient(x_, j);
-  const Eigen::Matrix3d turned = rotation * u + (rotation - Eigen::Matrix3d::Identity());
+  set_displacement_gradient(j, rotation * u + (rotation - Eigen::Matrix3d::Identity()));
+}
+
+void GraphSolver::set_displacement_gradient(Index j, const Eigen::Matrix3d& u) {
   for (int a = 0; a < 3; ++a) {
-    for (int c = 0; c < 3; ++c) energy_.entry(x_, a, j)[c] = turned(a, c);
+    for (int c = 0; c < 3; ++c) energy_.entry(x_, a, j)[c] = u(a, c);
   }
 }
 
@@ -250,7 +274,16 @@ Status GraphSolver::find_direction() {
   }
   energy_.gauss_newton_matrix(x_, constant_, newton_);
   for (Index j = 0; j < newton_.nodes; ++j) {
-    for (int i = 0; i < 12; ++i) newton_.diagonal_block(j)[13 * i] += kDamping;
+    Eigen::Map<Eigen::Matrix<double, 12, 12>> block(newton_.diagonal_block(j));
+    block.diagonal().array() += kDamping;
+    const Eigen::Matrix3d r = affine_part(j);
+    const double curvature = barrier::curvature(r.determinant());
+    if (curvature == 0.0) continue;
+    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> g =
+        Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Zero();
+    g.leftCols<3>() = cofactors(r);
+    const Eigen::Map<const Eigen::Matrix<double, 12, 1>> gradient(g.data());
+    block += 0.5 * options_.weights.rotation * curvature * gradient * gradient.transpose();
   }
   ++factorizations_;
   if (Status s = newton_factor_.factorize(newton_); !s.ok()) return s;
@@ -268,28 +301,67 @@ Status GraphSolver::find_direction() {
   return {};
 }
 
-double GraphSolver::largest_safe_step(double alpha) const {
-  // A node may lose four fifths of its determinant in a step, never change its sign.
+double GraphSolver::barrier() const {
+  double sum = 0.0;
+  for (Index j = 0; j < energy_.free_nodes(); ++j)
+    sum += barrier::value(affine_part(j).determinant());
+  return options_.weights.rotation * sum;
+}
+
+void GraphSolver::update_gradient() {
+  energy_.half_gradient(x_, gradient_);
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
-    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, j);
-    const auto c = determinant_along(r, energy_.displacement_gradient(direction_, j));
-    const double least = 0.2 * std::min(1.0, c[0]);
-    while (c[0] + alpha * (c[1] + alpha * (c[2] + alpha * c[3])) < least) alpha *= 0.7;
+    const Eigen::Matrix3d r = affine_part(j);
+    const double slope = barrier::slope(r.determinant());
+    if (slope == 0.0) continue;
+    const Eigen::Matrix3d g = 0.5 * options_.weights.rotation * slope * cofactors(r);
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 3; ++c) energy_.entry(gradient_, a, j)[c] += g(a, c);
+    }
   }
-  return alpha;
+}
+
+double GraphSolver::choose_step(const Quartic& course, double slope) {
+  // A node may lose four fifths of its determinant in a step; those near the barrier are listed.
+  double alpha = course.first_minimum();
+  double barrier_before = 0.0;
+  near_barrier_.clear();
+  for (Index j = 0; j < energy_.free_nodes(); ++j) {
+    const auto along =
+        determinant_along(affine_part(j), energy_.displacement_gradient(direction_, j));
+    while (alpha > 0.0 && value_at(along, alpha) < 0.2 * std::min(1.0, along[0])) alpha *= 0.7;
+    if (along[0] >= barrier::kSafeDeterminant &&
+        value_at(along, alpha) >= barrier::kSafeDeterminant)
+      continue;
+    near_barrier_.push_back(along);
+    barrier_before += options_.weights.rotation * barrier::value(along[0]);
+  }
+  // Away from the barrier the first minimum of the quartic is the exact line search. Near it the
+  // sum of both must fall, and the energy must not rise.
+  if (near_barrier_.empty()) return alpha;
+  for (int halvings = 0; halvings < 40; ++halvings, alpha *= 0.5) {
+    double barrier_after = 0.0;
+    for (const auto& along : near_barrier_) {
+      barrier_after += options_.weights.rotation * barrier::value(value_at(along, alpha));
+    }
+    const double energy_after = course.value(alpha);
+    if (energy_after < course.c[0] &&
+        energy_after + barrier_after < course.c[0] + barrier_before + 1e-4 * alpha * slope) {
+      return alpha;
+    }
+  }
+  return 0.0;
 }
 
 Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   if (energy_.free_nodes() == 0) return Outcome{false, true};
   const double before = energy_.total();
   if (Status s = find_direction(); !s.ok()) return s;
-  Quartic course = energy_.along(x_, direction_);
-  if (!(course.c[1] < 0.0) && !memory_.empty()) {
+  if (!(gradient_.dot(direction_) < 0.0) && !memory_.empty()) {
     memory_.clear();
     if (Status s = find_direction(); !s.ok()) return s;
-    course = energy_.along(x_, direction_);
   }
-  const double alpha = largest_safe_step(course.first_minimum());
+  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * gradient_.dot(direction_));
   previous_ = x_;
   step_ = alpha * direction_;
   x_ += step_;
@@ -297,10 +369,12 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   if (!(alpha > 0.0) || !(energy_.total() < before)) {
     x_ = previous_;
     energy_.evaluate(x_);
-    return Outcome{false, !tighten()};
+    if (memory_.empty()) return Outcome{false, !tighten()};
+    memory_.clear();  // once more along the plain direction before giving up
+    return step(tolerance);
   }
   change_ = gradient_;
-  energy_.half_gradient(x_, gradient_);
+  update_gradient();
   change_ = gradient_ - change_;
   memory_.remember(step_, change_);
 
@@ -323,7 +397,7 @@ bool GraphSolver::tighten() {
   shift_ = -energy_.constraint_residuals();
   energy_.set_targets(displacement_ + shift_);
   energy_.evaluate(x_);
-  energy_.half_gradient(x_, gradient_);
+  update_gradient();
   return true;
 }
 

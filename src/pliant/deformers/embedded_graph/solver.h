@@ -6,6 +6,7 @@
 // take the exact minimum along their direction, and both keep det R > 0 at every node.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "pliant/core/status.h"
@@ -65,11 +66,18 @@ class GraphSolver {
   void predict_rigid();
   void predict_turns(const std::vector<Turn>& turns, bool as_told);
   void turn_node(Index free_node, const Eigen::Matrix3d& rotation);
+  void set_displacement_gradient(Index free_node, const Eigen::Matrix3d& u);
   void settle_translations();
   /// After x_ has changed from previous_: goes back unless the energy fell.
   bool keep_if_lower(double previous_total);
   Status find_direction();
-  double largest_safe_step(double alpha) const;
+  Eigen::Matrix3d affine_part(Index free_node) const {  ///< R_j
+    return Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, free_node);
+  }
+  double barrier() const;
+  void update_gradient();
+  /// Step along direction_, given the energy's course and the slope with the barrier's part.
+  double choose_step(const Quartic& course, double slope);
   bool tighten();
   /// Scaled positions of the constrained points.
   Points constrained_now() const {
@@ -93,6 +101,7 @@ class GraphSolver {
   BlockMatrix constant_, newton_, translation_;
   SparseCholesky metric_factor_, newton_factor_, translation_factor_;
   Lbfgs memory_;
+  std::vector<std::array<double, 4>> near_barrier_;  ///< determinants along the step
   int factorizations_ = 0;
   int analyses_ = 0;
 };
