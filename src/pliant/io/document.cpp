@@ -1,10 +1,10 @@
 #include "pliant/io/document.h"
 
-#include <cmath>
 #include <cstdlib>
 #include <string>
 
 #include "pliant/geometry/shape.h"
+#include "pliant/io/check.h"
 #include "pliant/io/draft.h"
 #include "pliant/io/obj.h"
 #include "pliant/io/off.h"
@@ -57,12 +57,7 @@ Status check_positions(std::span<const double> positions) {
     return too_large("the shape has " + std::to_string(positions.size() / 3) +
                      " vertices; expected at most " + std::to_string(max_vertices));
   }
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (std::isfinite(positions[i])) continue;
-    return invalid("position " + std::to_string(i % 3) + " of vertex " + std::to_string(i / 3) +
-                   " is not finite");
-  }
-  return {};
+  return check_finite(positions, "positions");
 }
 
 /// Reads polygons as (count, ids...) into the mesh.
@@ -145,11 +140,8 @@ Status Document::assign_texcoords(std::span<const double> texcoords) {
     return invalid("texture coordinates has " + std::to_string(texcoords.size()) +
                    " numbers; expected 2 for each of " + std::to_string(corners) + " corners");
   }
-  for (std::size_t i = 0; i < texcoords.size(); ++i) {
-    if (std::isfinite(texcoords[i])) continue;
-    return invalid("texture coordinate " + std::to_string(i % 2) + " of corner " +
-                   std::to_string(i / 2) + " is not finite");
-  }
+  const Status finite = check_finite(texcoords, "texture coordinates");
+  if (!finite.ok()) return finite;
   mesh_.texcoords.assign(texcoords.begin(), texcoords.end());
   mesh_.corner_texcoords.resize(corners);
   for (std::size_t c = 0; c < corners; ++c) {

@@ -5,17 +5,11 @@
 #include <cmath>
 #include <string>
 
+#include "pliant/io/check.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {
 namespace {
-
-std::string in_words(double value) {
-  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "infinite";
-  Bytes text;
-  append_number(text, value);
-  return std::string(text_of(text));
-}
 
 /// Unit normal of the triangle at `corners` (9 numbers); zero where it has no area.
 std::array<double, 3> unit_normal(const double* corners) {
@@ -70,8 +64,10 @@ Status Draft::append_value(double value, Bytes& out) const {
     case NumberStyle::float_little: {
       const auto rounded = static_cast<float>(value);
       if (!std::isfinite(rounded)) {
-        return {ErrorCode::invalid_shape,
-                "coordinate " + in_words(value) + " does not fit the 32-bit numbers of binary STL"};
+        Bytes digits;
+        append_number(digits, value);
+        return {ErrorCode::invalid_shape, "coordinate " + std::string(text_of(digits)) +
+                                              " does not fit the 32-bit numbers of binary STL"};
       }
       store(out, rounded, false);
       break;
@@ -82,15 +78,11 @@ Status Draft::append_value(double value, Bytes& out) const {
 
 Status Draft::emit(std::span<const double> coordinates, Bytes& out) const {
   if (coordinates.size() != points_.size()) {
-    return {ErrorCode::invalid_shape, std::to_string(coordinates.size()) +
-                                          " coordinates were given; expected " +
-                                          std::to_string(points_.size())};
+    return {ErrorCode::invalid_shape, "positions has " + std::to_string(coordinates.size()) +
+                                          " numbers; expected " + std::to_string(points_.size())};
   }
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    if (std::isfinite(coordinates[i])) continue;
-    return {ErrorCode::invalid_shape, "coordinate " + std::to_string(i) + " is " +
-                                          in_words(coordinates[i]) + "; expected a finite number"};
-  }
+  const Status finite = check_finite(coordinates, "positions");
+  if (!finite.ok()) return finite;
   std::size_t done = 0;
   std::array<double, 3> normal{};
   for (const Place& place : places_) {

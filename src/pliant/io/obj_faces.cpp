@@ -1,23 +1,15 @@
 #include "pliant/io/obj_faces.h"
 
-#include <istream>
-#include <streambuf>
-#include <vector>
+#include "pliant/io/tinyobj_streams.h"
 
+#define std pliant::io::tinyobj_std
 #define TINYOBJLOADER_IMPLEMENTATION
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
+#undef std
 
 namespace pliant::io {
 namespace {
-
-/// Reads a string in place, where std::istringstream would copy it.
-class StringView : public std::streambuf {
- public:
-  explicit StringView(std::string& text) {
-    setg(text.data(), text.data(), text.data() + text.size());
-  }
-};
 
 struct Relay {
   ObjFaceVisitor& visitor;
@@ -35,9 +27,9 @@ void relay_face(void* user_data, tinyobj::index_t* indices, int count) {
 
 }  // namespace
 
-void read_obj_faces(std::string& statements, ObjFaceVisitor& visitor) {
-  StringView buffer(statements);
-  std::istream stream(&buffer);
+void read_obj_faces(std::string_view statements, ObjFaceVisitor& visitor) {
+  tinyobj_std::streambuf buffer(statements.data(), statements.data() + statements.size());
+  tinyobj_std::istream stream(&buffer);
   Relay relay{visitor, {}};
   tinyobj::callback_t callbacks;
   callbacks.index_cb = relay_face;

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
+#include <string_view>
 
 namespace pliant::io {
 
@@ -21,8 +21,7 @@ class ObjFaceVisitor {
   virtual void face(std::span<const ObjCorner> corners) = 0;
 };
 
-/// `statements`: lines "f ...", each with at least one corner. tinyobjloader sets up a stream a
-/// call, so many lines in one call are cheaper than one.
-void read_obj_faces(std::string& statements, ObjFaceVisitor& visitor);
+/// `statements`: lines "f ...", each with at least one corner; many in one call are cheaper.
+void read_obj_faces(std::string_view statements, ObjFaceVisitor& visitor);
 
 }  // namespace pliant::io

@@ -90,8 +90,6 @@ Result<PlyHeader> HeaderParser::parse(std::string_view text) {
     ++header_.lines;
     at = end;
   }
-  const Status status = check();
-  if (!status.ok()) return status;
   return std::move(header_);
 }
 
@@ -102,7 +100,8 @@ Status HeaderParser::parse_line(std::string_view line) {
   header_.rewritten += line;
   if (keyword == "format") return parse_format(line, at);
   if (keyword == "element") return parse_element(line, at);
-  constexpr std::string_view others[] = {"ply", "comment", "obj_info", "end_header", ""};
+  if (keyword == "end_header") return check();
+  constexpr std::string_view others[] = {"ply", "comment", "obj_info", ""};
   if (std::find(std::begin(others), std::end(others), keyword) != std::end(others)) return {};
   return failure("found " + quoted(keyword) +
                  "; expected format, element, property, comment, obj_info or end_header");

@@ -54,7 +54,7 @@ class Triangulator {
   std::size_t first_ = 0;              ///< corner of the mesh the polygon starts at
   std::vector<Planar> plane_;          ///< its corners
   std::vector<std::size_t> left_;      ///< those not clipped yet
-  std::int64_t budget_ = 200'000'000;  ///< tests of a corner against an ear
+  std::int64_t budget_ = 100'000'000;  ///< tests of a corner against an ear
 };
 
 void Triangulator::add(std::size_t a, std::size_t b, std::size_t c) {

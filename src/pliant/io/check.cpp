@@ -1,0 +1,18 @@
+#include "pliant/io/check.h"
+
+#include <cmath>
+#include <string>
+
+namespace pliant::io {
+
+Status check_finite(std::span<const double> values, const char* name) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    const char* value = std::isnan(values[i]) ? "NaN" : values[i] > 0 ? "Infinity" : "-Infinity";
+    return {ErrorCode::invalid_shape, std::string(name) + "[" + std::to_string(i) + "] is " +
+                                          value + "; expected a finite number"};
+  }
+  return {};
+}
+
+}  // namespace pliant::io
