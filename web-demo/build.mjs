@@ -20,33 +20,49 @@ const shapesPlugin = {
   load: (id) => (id === "\0shapes" ? `export const shapes = ${JSON.stringify(JSON.parse(readFileSync(shapesFile, "utf8")).shapes)}` : undefined),
 };
 
+/** The package's worker entry with everything inside: in a page of one file there is nothing beside it to load. */
+const packagePlugin = (dist) => ({
+  name: "pliant-package",
+  enforce: "pre",
+  resolveId: (id) => (id === "pliant/worker" ? join(dist, "worker.js") : undefined),
+  transform(code, id) {
+    if (id !== join(dist, "worker.js")) return undefined;
+    const beside = /new URL\((["'`])\.\/(?:pliant\.wasm|worker-host\.js)\1,\s*import\.meta\.url\)/g;
+    if (code.match(beside)?.length !== 2) throw new Error(`${id}: expected it to name pliant.wasm and worker-host.js once each`);
+    return code.replace(beside, 'new URL("about:blank")');
+  },
+});
+
 /** Puts script and style into the page: a page on a disk may load nothing else. */
 const inlinePlugin = {
   name: "pliant-inline-page",
   enforce: "post",
-  generateBundle(_, bundle) {
-    const page = bundle["index.html"];
-    for (const [name, part] of Object.entries(bundle)) {
-      const file = name.split("/").pop();
-      if (name.endsWith(".js")) {
-        const script = `<script type="module">${part.code.replaceAll("</script", "<\\/script")}</script>`;
-        page.source = page.source.replace(new RegExp(`<script[^>]*${file}[^>]*></script>`), "").replace("</body>", () => `${script}\n</body>`);
-      } else if (name.endsWith(".css")) {
-        page.source = page.source.replace(new RegExp(`<link[^>]*${file}[^>]*>`), () => `<style>${part.source}</style>`);
-      } else continue;
-      delete bundle[name];
-    }
-  },
+  generateBundle: { order: "post", handler: inlineBundle },
 };
 
-export async function buildDemo({ out = join(root, "dist/demo") } = {}) {
+function inlineBundle(_, bundle) {
+  const page = bundle["index.html"];
+  for (const [name, part] of Object.entries(bundle)) {
+    const file = name.split("/").pop();
+    if (name.endsWith(".js")) {
+      const script = `<script type="module">${part.code.replaceAll("</script", "<\\/script")}</script>`;
+      page.source = page.source.replace(new RegExp(`<script[^>]*${file}[^>]*></script>`), "").replace("</body>", () => `${script}\n</body>`);
+    } else if (name.endsWith(".css")) {
+      page.source = page.source.replace(new RegExp(`<link[^>]*${file}[^>]*>`), () => `<style>${part.source}</style>`);
+    } else continue;
+    delete bundle[name];
+  }
+}
+
+/** `dist`: the built package; `out`: where the page goes. */
+export async function buildDemo({ dist = join(root, "dist"), out = join(dist, "demo") } = {}) {
   await buildShapes();
   const result = await build({
     configFile: false,
     root: here,
     logLevel: "warn",
-    plugins: [shapesPlugin, inlinePlugin],
-    build: { write: false, target: "es2022", assetsInlineLimit: 1e8, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 2000 },
+    plugins: [packagePlugin(dist), shapesPlugin, inlinePlugin],
+    build: { write: false, target: "es2022", assetsInlineLimit: 1e8, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 2000, rolldownOptions: { output: { codeSplitting: false } } },
   });
   const files = result.output.map((file) => file.fileName);
   if (files.join() !== "index.html") throw new Error(`the demo page should be one file, but is ${files.join(", ")}`);

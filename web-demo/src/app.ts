@@ -87,7 +87,7 @@ export class App {
       pick: (x, y) => this.pick(x, y),
       radius: () => this.toolbar.size * this.box.diagonal,
       preview: (fixed) => {
-        view.paint(session.doc, fixed ? { fixed } : undefined);
+        view.paint(session.doc, fixed);
         viewport.invalidate();
       },
       showBrush: (at) => this.showBrush(at),
@@ -109,8 +109,7 @@ export class App {
 
   /** Errors: a sentence for the visitor. */
   async openFile(file: File): Promise<void> {
-    await this.session.open(await loadFile(file));
-    this.chrome.say("");
+    if (await this.session.open(await loadFile(file))) this.chrome.say("");
   }
 
   private async watchGraph(on: boolean): Promise<void> {
@@ -138,7 +137,7 @@ export class App {
   private takeShape(shape: ShapeData): void {
     this.shown = shape;
     this.box = boundingBox(shape.positions);
-    this.view.show(shape);
+    this.view.show(shape, this.session.solid);
     this.view.setWireframe(byId<HTMLInputElement>("wire").checked);
     this.view.setVeiled(byId<HTMLInputElement>("graph").checked);
     this.viewport.frame(this.box, shape.viewFrom, shape.dimension);

@@ -62,21 +62,23 @@ export class Session {
 
   // -- What changes the scene ---------------------------------------------------------------------
 
-  /** Shows another shape, in its starting pose, with the method as it is. Rejects with a PliantError. */
-  open(shape: ShapeData): Promise<void> {
+  // These and the calls below resolve to whether it went well; if not, the visitor has been told.
+
+  /** Shows another shape, in its starting pose, with the method as it is. */
+  open(shape: ShapeData): Promise<boolean> {
     return this.replace({ ...startingDoc(shape, methodOf(this.doc.method)), options: this.doc.options });
   }
 
-  setMethod(id: string): Promise<void> {
+  setMethod(id: string): Promise<boolean> {
     return this.replace({ ...this.doc, method: id, options: defaultOptions(methodOf(id)) });
   }
 
-  setOption(key: string, value: number): Promise<void> {
+  setOption(key: string, value: number): Promise<boolean> {
     return this.replace({ ...this.doc, options: { ...this.doc.options, [key]: value } }, `option ${key}`);
   }
 
   /** Another shape, method or option: a new deformer solves from rest. */
-  private replace(doc: Doc, label = ""): Promise<void> {
+  private replace(doc: Doc, label = ""): Promise<boolean> {
     return this.exclusive(async () => {
       const before = this.history.current;
       const moment: Moment = { doc: { ...doc, grab: freshGrab(doc.handles) }, deformation: undefined };
@@ -107,18 +109,18 @@ export class Session {
     return id;
   }
 
-  removeHandle(id: number): Promise<void> {
+  removeHandle(id: number): Promise<boolean> {
     if (this.selected === id) this.selected = undefined;
     return this.constrain({ handles: this.doc.handles.filter((h) => h.id !== id) });
   }
 
   /** Replaces the fixed region; vertices of handles stay with them. */
-  setFixed(vertices: Iterable<number>): Promise<void> {
+  setFixed(vertices: Iterable<number>): Promise<boolean> {
     const taken = new Set(this.doc.handles.flatMap((h) => [...h.vertices]));
     return this.constrain({ fixed: Uint32Array.from(vertices).filter((v) => !taken.has(v)).sort() });
   }
 
-  private constrain(change: Partial<Pick<Doc, "fixed" | "handles">>): Promise<void> {
+  private constrain(change: Partial<Pick<Doc, "fixed" | "handles">>): Promise<boolean> {
     this.doc = withConstraints(this.doc, change);
     const doc = this.doc;
     this.events.change();
@@ -161,7 +163,7 @@ export class Session {
   }
 
   /** Every handle and the shape back to rest; the regions stay. */
-  reset(): Promise<void> {
+  reset(): Promise<boolean> {
     const handles = this.doc.handles.map((h) => ({ ...h, motion: atRest }));
     const doc = { ...this.doc, handles, grab: freshGrab(handles) };
     return this.exclusive(async () => {
@@ -179,15 +181,15 @@ export class Session {
   get canRedo(): boolean {
     return this.history.canRedo;
   }
-  undo(): Promise<void> {
+  undo(): Promise<boolean> {
     return this.travel(() => this.history.undo());
   }
-  redo(): Promise<void> {
+  redo(): Promise<boolean> {
     return this.travel(() => this.history.redo());
   }
 
-  private travel(go: () => Moment): Promise<void> {
-    if (this.dragging) return Promise.resolve();
+  private travel(go: () => Moment): Promise<boolean> {
+    if (this.dragging) return Promise.resolve(false);
     return this.exclusive(() => this.enter(go()));
   }
 
@@ -208,16 +210,25 @@ export class Session {
     this.events.frame();
   }
 
+  /** A closed surface whose triangles look outwards: its inside is never seen. */
+  get solid(): boolean {
+    return (this.meter.volume ?? 0) > 0;
+  }
+
   measures(): Measures {
     return this.meter.measure(this.positions);
   }
 
   // -- Inside -------------------------------------------------------------------------------------
 
-  private exclusive<T>(job: () => Promise<T>): Promise<T> {
-    const result = this.work.then(job);
-    this.work = result.catch((error: Error) => this.events.problem(error)).then(() => this.events.change());
-    return result;
+  /** Runs a job when those before it are done. Resolves to whether it went well; if not, it was told. */
+  private exclusive(job: () => Promise<void>): Promise<boolean> {
+    const done = this.work.then(job).then(() => true, (error: Error) => {
+      this.events.problem(error);
+      return false;
+    });
+    this.work = done.then(() => this.events.change());
+    return done;
   }
 
   /** Makes a moment the present: rebuilds what differs, constrains, restores, solves on. */

@@ -30,7 +30,7 @@ async function bunny(): Promise<ShapeData> {
     id: "bunny", name: "Bunny (scan)", dimension: 3, ...mesh, viewFrom: [0.1, 0.2, 1],
     start: {
       fixed: ([, y]) => y < 0.9,
-      handles: [{ name: "ears", center: [-4.6, 8.6, -0.6], radius: 1.4 }],
+      handles: [{ name: "ears", center: [0, 9.1, -1.1], radius: 1.1 }],
     },
   };
 }

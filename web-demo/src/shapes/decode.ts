@@ -1,4 +1,5 @@
-// Unpacks the meshes made by build-shapes.mjs; shapes/encode.mjs describes the format.
+// Unpacks the meshes made by build-shapes.mjs; web-demo/shapes/encode.mjs describes the format.
+import { symbols, walk } from "../../shapes/walk.mjs";
 
 export interface PackedMesh {
   points: number;
@@ -39,27 +40,45 @@ class Reader {
   }
 }
 
+/** Triangles and, on a grid, positions: both follow the walk. */
+function readSurface(reader: Reader, { points, triangles: count }: PackedMesh) {
+  const triangles: number[] = [];
+  const predictors: number[][] = [];
+  const meet = (predictor: number[]): number => predictors.push(predictor) - 1;
+  const first = (): [number, number, number] => {
+    const a = meet([]);
+    return [a, meet([a]), meet([a + 1])];
+  };
+  const across = (x: number, y: number, opposite: number, after: number, before: number): number => {
+    switch (reader.number()) {
+      case symbols.fresh: return meet([x, y, opposite]);
+      case symbols.after: return after;
+      case symbols.before: return before;
+      default: return predictors.length - reader.number();
+    }
+  };
+  walk(count, first, across, (a, b, c) => triangles.push(a, b, c));
+  const grid = new Int32Array(3 * points);
+  predictors.forEach(([x, y, opposite], v) => {
+    for (let k = 0; k < 3; k++) {
+      let predicted = x === undefined ? 0 : grid[3 * x + k]!;
+      if (y !== undefined) predicted += grid[3 * y + k]! - grid[3 * opposite! + k]!;
+      grid[3 * v + k] = predicted + reader.number();
+    }
+  });
+  return { triangles: Uint32Array.from(triangles), grid };
+}
+
 export async function decodeMesh(packed: PackedMesh): Promise<PlainMesh> {
   const reader = new Reader(await gunzip(packed.data));
-  const triangles = new Uint32Array(3 * packed.triangles);
-  for (let i = 0, next = 0; i < triangles.length; i++) {
-    const id = next - reader.number();
-    triangles[i] = id;
-    if (id === next) next++;
-  }
-  const positions = new Float32Array(3 * packed.points);
-  for (let k = 0; k < 3; k++) {
-    for (let v = 0, grid = 0; v < packed.points; v++) {
-      grid += reader.number();
-      positions[3 * v + k] = packed.min[k]! + packed.step * grid;
-    }
-  }
+  const { triangles, grid } = readSurface(reader, packed);
+  const positions = Float32Array.from(grid, (steps, i) => packed.min[i % 3]! + packed.step * steps);
   if (!packed.colored) return { positions, triangles };
   const colors = new Uint8Array(3 * packed.points);
   for (let k = 0; k < 3; k++) {
-    for (let v = 0, value = 0; v < packed.points; v++) {
-      value = (value + reader.byte()) & 255;
-      colors[3 * v + k] = value;
+    for (let v = 0, level = 0; v < packed.points; v++) {
+      level = (level + reader.byte()) & 63;
+      colors[3 * v + k] = 4 * level;
     }
   }
   return { positions, triangles, colors };

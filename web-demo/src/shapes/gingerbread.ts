@@ -34,7 +34,7 @@ function paintDough(context: CanvasRenderingContext2D, width: number, height: nu
       const grain = 0.5 + 0.5 * Math.sin(91 * x + 57 * y) * Math.sin(73 * y - 41 * x);
       const baked = Math.min(1, Math.max(0, 1 + d / 0.16));
       const light = 1 - 0.3 * baked * baked + 0.03 * grain;
-      const wave = 0.009 * Math.sin(40 * Math.atan2(y + 0.1, x));
+      const wave = 0.007 * Math.sin(38 * x) * Math.sin(38 * y);
       const icing = Math.min(1, Math.max(0, (0.02 - Math.abs(d + 0.085 + wave)) / 0.007));
       const at = 4 * (row * width + column);
       [198, 126, 66].forEach((c, k) => {

@@ -26,7 +26,8 @@ function signedVolume(positions: Float32Array, triangles: Uint32Array): number {
 export class Meter {
   private readonly edges: Uint32Array;
   private readonly lengths: Float64Array;
-  private readonly volume: number | undefined;
+  /** At rest; undefined unless closed. */
+  readonly volume: number | undefined;
 
   constructor(private readonly shape: ShapeData, topology: Topology, closed: boolean) {
     this.edges = distinctEdges(shape, topology);

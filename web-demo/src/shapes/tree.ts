@@ -53,19 +53,19 @@ class Cloud {
 
 export function tree(): ShapeData {
   const cloud = new Cloud(random(7));
-  cloud.bark([0, 0, 0], [0.03, 0.55, 0], 0.15, 0.095, 1500);
-  cloud.bark([0.03, 0.55, 0], [0, 1.2, 0], 0.095, 0.05, 900);
+  cloud.bark([0, 0, 0], [0.03, 0.55, 0], 0.15, 0.095, 2600);
+  cloud.bark([0.03, 0.55, 0], [0, 1.2, 0], 0.095, 0.05, 1500);
   const crowns: [Vec, number][] = [
     [[0, 1.62, 0], 0.4], [[0.44, 1.3, 0.1], 0.32], [[-0.42, 1.34, 0.08], 0.34],
     [[0.08, 1.26, 0.42], 0.3], [[-0.05, 1.32, -0.42], 0.32],
   ];
   for (const [center, radius] of crowns) {
-    cloud.bark([0.02, 0.72, 0], center, 0.055, 0.02, 260);
-    cloud.leaves(center, radius, Math.round(15000 * radius * radius));
+    cloud.bark([0.02, 0.72, 0], center, 0.055, 0.02, 420);
+    cloud.leaves(center, radius, Math.round(30000 * radius * radius));
   }
   return {
     id: "tree", name: "Tree (points)", positions: Float32Array.from(cloud.positions), triangles: new Uint32Array(0),
-    dimension: 3, colors: Uint8Array.from(cloud.colors), dotSize: 0.009, viewFrom: [0.35, 0.25, 1],
+    dimension: 3, colors: Uint8Array.from(cloud.colors), dotSize: 0.018, viewFrom: [0.35, 0.25, 1],
     start: {
       fixed: ([, y]) => y < 0.2,
       handles: [{ name: "crown", center: [0, 1.95, 0.1], radius: 0.24 }],

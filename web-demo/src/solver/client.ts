@@ -4,7 +4,7 @@ import type { HandleDoc } from "../edit/document.ts";
 import { asTransform, isAtRest, type Motion } from "../edit/motion.ts";
 import { fittingOptions, type Options } from "../methods.ts";
 import { vertexCount, type ShapeData } from "../shapes/shape.ts";
-import { connect, type Deformer, type Handle, type Pliant, type ShapeReport, type State, type StepReport } from "./pliant.ts";
+import { connect, type Deformer, type DeformerOptions, type Handle, type Pliant, type ShapeReport, type State, type StepReport } from "./pliant.ts";
 
 /** What the screen shows after one run of the solver. */
 export interface Frame {
@@ -27,6 +27,10 @@ export interface SolverEvents {
 const frameBudget = 8;
 /** Steps after the last change at which a shape that never comes to rest is left alone. */
 const patience = 300;
+
+/** Points of the plane, two numbers each, with z = 0. */
+const inSpace = (flat: Float32Array) =>
+  Float32Array.from({ length: (flat.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!));
 
 const nextFrame = () => new Promise<void>((resolve) => requestAnimationFrame(() => resolve()));
 
@@ -61,7 +65,8 @@ export class SolverClient {
       const plane = data.dimension === 2;
       const positions = plane ? data.positions.filter((_, i) => i % 3 < 2) : data.positions;
       const shape = await this.pliant.shape({ positions, triangles: data.triangles, ...(plane ? { dimension: 2 } : {}) });
-      const deformer = await this.pliant.deformer(shape, { method, ...fittingOptions(options, vertexCount(data)) });
+      const deformer = await this.pliant.deformer(shape, { method, ...fittingOptions(options, vertexCount(data)) } as DeformerOptions)
+        .finally(() => shape.dispose());
       await this.deformer?.dispose();
       this.deformer = deformer;
       this.dimension = data.dimension;
@@ -170,9 +175,10 @@ export class SolverClient {
 
   private async picture(): Promise<Pick<Frame, "positions" | "normals" | "state">> {
     const deformer = this.deformer!;
-    const [positions, normals, state] = await Promise.all([
+    const [flat, normals, state] = await Promise.all([
       deformer.positions(), deformer.normals(), this.watching ? deformer.state() : undefined,
     ]);
+    const positions = this.dimension === 2 ? inSpace(flat) : flat;
     return { positions, normals, ...(state ? { state } : {}) };
   }
 }

@@ -18,6 +18,7 @@ export class Panel {
   private readonly choice = byId<HTMLSelectElement>("method-choice");
   private readonly options = byId("options");
   private shownMethod = "";
+  private shown: readonly unknown[] = [];
 
   constructor(private readonly session: Session, private readonly actions: PanelActions) {
     for (const { id, name } of catalog) this.addShape(id, name);
@@ -56,6 +57,9 @@ export class Panel {
   /** Matches the controls with the document. */
   refresh(): void {
     const { doc } = this.session;
+    const shown = [doc.shape, doc.method, doc.options];
+    if (shown.every((part, i) => part === this.shown[i])) return;
+    this.shown = shown;
     const known = catalog.some((entry) => entry.id === doc.shape.id);
     for (const radio of this.shapes.querySelectorAll("input")) {
       radio.checked = known && radio.value === doc.shape.id;
@@ -64,10 +68,8 @@ export class Panel {
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
     for (const input of this.options.querySelectorAll("input")) {
-      const value = String(doc.options[input.name]);
-      if (document.activeElement === input && input.dataset["dragged"]) continue;
-      input.value = value;
-      (input.previousElementSibling as HTMLOutputElement).value = value;
+      input.value = String(doc.options[input.name]);
+      (input.previousElementSibling as HTMLOutputElement).value = input.value;
     }
   }
 
@@ -76,14 +78,8 @@ export class Panel {
     this.options.replaceChildren(...methodOf(method).options.map(({ key, label, help, min, max, step }) => {
       const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${min}`, max: `${max}`, step: `${step}` });
       const output = make("output", { for: `option-${key}` });
-      input.addEventListener("input", () => {
-        output.value = input.value;
-        input.dataset["dragged"] = "yes";
-      });
-      input.addEventListener("change", () => {
-        delete input.dataset["dragged"];
-        this.session.setOption(key, Number(input.value)).catch(this.actions.problem);
-      });
+      input.addEventListener("input", () => (output.value = input.value));
+      input.addEventListener("change", () => void this.session.setOption(key, Number(input.value)));
       return make("label", { class: "option", title: help }, label, output, input);
     }));
   }

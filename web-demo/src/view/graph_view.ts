@@ -7,6 +7,8 @@ import type { State } from "../solver/pliant.ts";
 
 const calm = new Color(0x2f6df0);
 const strained = new Color(0xff3d3d);
+/** Energies below this are calm, however small the others are. */
+const quietest = 0.02;
 
 export interface GraphState {
   nodes: ArrayLike<ArrayLike<number>>;
@@ -17,7 +19,7 @@ export interface GraphState {
 
 /** A state that holds a graph of nodes, whatever the method. */
 export function graphIn(state: State | undefined): GraphState | undefined {
-  const graph = state as Partial<GraphState> | undefined;
+  const graph = state as unknown as Partial<GraphState> | undefined;
   return graph?.nodes && graph.edges && graph.rotations && graph.translations ? (graph as GraphState) : undefined;
 }
 
@@ -54,7 +56,7 @@ export class GraphView {
   private readonly lines: LineSegments;
 
   constructor() {
-    const material = new LineBasicMaterial({ color: 0x2b4a9b, transparent: true, opacity: 0.45, depthTest: false });
+    const material = new LineBasicMaterial({ color: 0x4f7fe8, transparent: true, opacity: 0.3, depthTest: false });
     this.lines = new LineSegments(new BufferGeometry(), material);
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 1;
@@ -92,10 +94,11 @@ export class GraphView {
     const nodes = this.nodes!;
     const size = (0.03 * diagonal) / Math.sqrt(Math.max(count, 30) / 30);
     const energies = nodeEnergies(graph, diagonal / Math.sqrt(count));
+    const scale = Math.max(quietest, energies.toSorted()[Math.floor(0.97 * count)]!);
     const color = new Color();
     for (let j = 0; j < count; j++) {
       nodes.setMatrixAt(j, new Matrix4().makeScale(size, size, size).setPosition(...at(j)));
-      nodes.setColorAt(j, color.lerpColors(calm, strained, Math.min(1, Math.sqrt(energies[j]! * 8))));
+      nodes.setColorAt(j, color.lerpColors(calm, strained, Math.min(1, Math.sqrt(energies[j]! / scale))));
     }
     nodes.instanceMatrix.needsUpdate = true;
     nodes.instanceColor!.needsUpdate = true;

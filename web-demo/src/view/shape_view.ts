@@ -1,6 +1,6 @@
 // The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, Group, Material, Mesh, MeshStandardMaterial, Points,
+  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshStandardMaterial, Points,
   PointsMaterial, SRGBColorSpace, Texture,
 } from "three";
 import type { Doc } from "../edit/document.ts";
@@ -12,6 +12,8 @@ type Color = readonly [number, number, number];
 const clay: Color = [222, 206, 186];
 const fixedTint: Color = [58, 82, 178];
 const heldTint: Color = [255, 146, 43];
+/** On a picture tints multiply what is there: paler ones. */
+const fixedWash: Color = [110, 150, 255];
 
 /** The renderer multiplies in linear light. */
 const linear = Float32Array.from({ length: 256 }, (_, c) => {
@@ -24,12 +26,15 @@ export class ShapeView {
   private shape: ShapeData | undefined;
   private geometry = new BufferGeometry();
   private base: Uint8Array = new Uint8Array(0);
+  /** The regions the colours show: fixed, then of each handle. */
+  private painted: Iterable<number>[] = [];
   object: Mesh | Points | undefined;
 
-  /** Takes a shape on; its geometry from before is freed. */
-  show(shape: ShapeData): void {
+  /** Takes a shape on; its geometry from before is freed. `solid`: only its outside is ever seen. */
+  show(shape: ShapeData, solid: boolean): void {
     this.clear();
     this.shape = shape;
+    this.painted = [];
     this.base = baseColors(shape);
     this.geometry = new BufferGeometry();
     const empty = () => new BufferAttribute(new Float32Array(shape.positions.length), 3);
@@ -37,14 +42,14 @@ export class ShapeView {
     this.geometry.setAttribute("normal", empty());
     this.geometry.setAttribute("color", empty());
     if (shape.picture) this.geometry.setAttribute("uv", new BufferAttribute(shape.picture.uv, 2));
-    this.object = shape.triangles.length > 0 ? this.surface(shape) : this.dots(shape);
+    this.object = shape.triangles.length > 0 ? this.surface(shape, solid) : this.dots(shape);
     this.object.frustumCulled = false;
     this.group.add(this.object);
   }
 
-  private surface(shape: ShapeData): Mesh {
+  private surface(shape: ShapeData, solid: boolean): Mesh {
     this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
-    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0, side: DoubleSide });
+    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0, side: solid ? FrontSide : DoubleSide });
     if (shape.picture) {
       material.map = pictureTexture(shape.picture.image);
       material.roughness = 0.9;
@@ -86,13 +91,16 @@ export class ShapeView {
     attribute.needsUpdate = true;
   }
 
-  /** Colours from the constraints; `brush`: vertices a stroke has touched that is not done yet. */
-  paint(doc: Doc, brush?: { fixed: ReadonlySet<number> }): void {
+  /** Colours from the constraints; `stroke`: the fixed region as a stroke that is not done yet leaves it. */
+  paint(doc: Doc, stroke?: ReadonlySet<number>): void {
+    const regions = [stroke ?? doc.fixed, ...doc.handles.map((h) => h.vertices)];
+    if (!stroke && regions.length === this.painted.length && regions.every((r, i) => r === this.painted[i])) return;
+    this.painted = stroke ? [] : regions;
     const colors = this.geometry.getAttribute("color") as BufferAttribute;
     const out = colors.array as Float32Array;
     for (let i = 0; i < out.length; i++) out[i] = linear[this.base[i]!]!;
-    for (const v of brush?.fixed ?? doc.fixed) this.tint(out, v, fixedTint, 0.72);
-    for (const handle of doc.handles) for (const v of handle.vertices) this.tint(out, v, heldTint, 0.62);
+    for (const v of regions[0]!) this.tint(out, v, this.shape?.picture ? fixedWash : fixedTint, 0.72);
+    for (const held of regions.slice(1)) for (const v of held) this.tint(out, v, heldTint, 0.62);
     colors.needsUpdate = true;
   }
 

@@ -1,7 +1,7 @@
 // The picture: scene, lights, camera. Drawn only when something changed.
 import {
   DirectionalLight, HemisphereLight, Mesh, Object3D, PerspectiveCamera, PlaneGeometry, Scene, ShadowMaterial,
-  Vector3, VSMShadowMap, WebGLRenderer,
+  Vector3, PCFShadowMap, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Box } from "../shapes/shape.ts";
@@ -28,7 +28,7 @@ export class Viewport {
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = VSMShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 5;
@@ -132,8 +132,8 @@ export class Viewport {
     const shadow = this.sun.shadow;
     Object.assign(shadow.camera, { left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: 0.1 * radius, far: 9 * radius });
     shadow.camera.updateProjectionMatrix();
-    shadow.bias = -0.0004;
-    shadow.normalBias = 0.006 * radius;
+    shadow.bias = -0.0005;
+    shadow.normalBias = 0.015 * radius;
   }
 
   // -- Between the scene and the screen -----------------------------------------------------------
