@@ -16,7 +16,6 @@ const source = join(root, "bindings/js");
 /** Entries of the package: the file in dist/ and where it begins. */
 const entries = {
   pliant: "index.ts",
-  inline: "inline.ts",
   worker: "worker.ts",
   "worker-host": "worker/host.ts",
   three: "three.ts",
@@ -40,9 +39,10 @@ export async function buildPackage({ wasm = join(root, "build/wasm/bindings/wasm
   };
   const inputs = Object.fromEntries(Object.entries(entries).map(([name, file]) => [name, join(source, file)]));
   await bundle({ input: inputs, plugins: [provide(modules, wasm)] }, { dir: out });
-  // One file without imports, for a classic <script>: all that a page opened from a file can load.
-  await bundle({ input: { "pliant.global": join(source, "inline.ts") }, plugins: [provide(modules, wasm)] },
-    { dir: out, format: "iife", name: "pliant" });
+  // Without imports: a page opened from a file cannot load any. Also as a classic script.
+  const inline = (name) => ({ input: { [name]: join(source, "inline.ts") }, plugins: [provide(modules, wasm)] });
+  await bundle(inline("inline"), { dir: out, codeSplitting: false });
+  await bundle(inline("pliant.global"), { dir: out, codeSplitting: false, format: "iife", name: "pliant" });
   await bundle({ input: { cli: join(source, "cli/main.ts") }, plugins: [provide(modules, wasm)], platform: "node" },
     { dir: out, codeSplitting: false, banner: "#!/usr/bin/env node" });
   await chmod(join(out, "cli.js"), 0o755);
@@ -75,7 +75,7 @@ async function script(file, wasm) {
     plugins: [provide({}, wasm)],
     resolve: { extensionAlias: { ".js": [".ts", ".js"] } },
   });
-  const { output: [chunk] } = await build.generate({ ...output, format: "iife" });
+  const { output: [chunk] } = await build.generate({ ...output, format: "iife", codeSplitting: false });
   await build.close();
   return chunk.code;
 }
@@ -125,7 +125,7 @@ async function withImports(out, file, found = new Set()) {
   found.add(file);
   if (!file.endsWith(".js")) return [...found];
   const text = await readFile(join(out, file), "utf8");
-  for (const [, path] of text.matchAll(/(?:from|import)\s*"(\.[^"]+)"/g)) {
+  for (const [, path] of text.matchAll(/(?:\bfrom|\bimport)\s*["'`](\.[^"'`]+)["'`]/g)) {
     await withImports(out, join(dirname(file), path), found);
   }
   return [...found];

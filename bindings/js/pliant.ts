@@ -5,8 +5,6 @@ import type { Core } from "./core.js";
 import { Deformer, readCallback, readSignal } from "./deformer.js";
 import type { DeformerOptions } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./quality.js";
-import { readScript } from "./script/read.js";
-import { runScript } from "./script/run.js";
 import type { EditOptions, EditResult, EditScript } from "./script/types.js";
 import { Shape, type ShapeInput } from "./shape.js";
 
@@ -41,7 +39,7 @@ export class Pliant {
     const given = fields(place, options, ["signal", "onProgress"]);
     const signal = readSignal(place.at("signal"), given.signal);
     const onProgress = readCallback<EditOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
-    const plan = readScript(script, { count: shape.report.vertices, dimension: shape.dimension });
-    return runScript(this.#core, shape, plan, { signal, onProgress });
+    const { edit } = await import("./script/edit.js");
+    return edit(this.#core, shape, script, { signal, onProgress });
   }
 }
