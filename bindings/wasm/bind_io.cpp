@@ -16,12 +16,12 @@ using emscripten::val;
 
 struct BytesValue {
   StatusValue status;
-  val bytes;
+  val bytes = val::undefined();
 };
 
 struct PointsValue {
   StatusValue status;
-  val points;
+  val points = val::undefined();
 };
 
 /// Keeps what a call returned a view of.
