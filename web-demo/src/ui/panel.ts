@@ -80,7 +80,7 @@ export class Panel {
       const output = make("output", { for: `option-${key}` });
       input.addEventListener("input", () => (output.value = input.value));
       input.addEventListener("change", () => void this.session.setOption(key, Number(input.value)));
-      return make("label", { class: "option", title: help }, label, output, input);
+      return make("label", { class: "option", title: help, for: input.id }, label, output, input); // an output could be labelled too
     }));
   }
 }
