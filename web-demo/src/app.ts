@@ -131,6 +131,7 @@ export class App {
     this.overlay.refresh();
     this.panel.refresh();
     this.chrome.refresh(session);
+    if (session.canUndo && this.toolbar.current.id === "pose") this.chrome.hint(""); // it has been understood
     this.viewport.invalidate();
   }
 

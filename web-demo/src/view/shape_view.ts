@@ -10,12 +10,11 @@ type Color = readonly [number, number, number];
 
 /** sRGB bytes. */
 const clay: Color = [222, 206, 186];
-const fixedTint: Color = [58, 82, 178];
-const heldTint: Color = [255, 146, 43];
-/** On a picture tints multiply what is there: paler ones. */
-const fixedWash: Color = [110, 150, 255];
+/** Linear colour and share, as bytes: blue where fixed, orange where held. */
+const fixedTint = [11, 22, 114, 190];
+const heldTint = [255, 72, 7, 150];
 
-/** The renderer multiplies in linear light. */
+/** The renderer works in linear light. */
 const linear = Float32Array.from({ length: 256 }, (_, c) => {
   const x = c / 255;
   return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
@@ -25,7 +24,6 @@ export class ShapeView {
   readonly group = new Group();
   private shape: ShapeData | undefined;
   private geometry = new BufferGeometry();
-  private base: Uint8Array = new Uint8Array(0);
   /** The regions the colours show: fixed, then of each handle. */
   private painted: Iterable<number>[] = [];
   object: Mesh | Points | undefined;
@@ -35,13 +33,13 @@ export class ShapeView {
     this.clear();
     this.shape = shape;
     this.painted = [];
-    this.base = baseColors(shape);
     this.geometry = new BufferGeometry();
-    const empty = () => new BufferAttribute(new Float32Array(shape.positions.length), 3);
-    this.geometry.setAttribute("position", empty());
-    this.geometry.setAttribute("normal", empty());
-    this.geometry.setAttribute("color", empty());
+    const count = vertexCount(shape);
+    this.geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * count), 3));
+    this.geometry.setAttribute("normal", new BufferAttribute(new Float32Array(3 * count), 3));
+    this.geometry.setAttribute("tint", new BufferAttribute(new Uint8Array(4 * count), 4, true));
     if (shape.picture) this.geometry.setAttribute("uv", new BufferAttribute(shape.picture.uv, 2));
+    else this.geometry.setAttribute("color", new BufferAttribute(baseColors(shape), 3));
     this.object = shape.triangles.length > 0 ? this.surface(shape, solid) : this.dots(shape);
     this.object.frustumCulled = false;
     this.group.add(this.object);
@@ -49,7 +47,8 @@ export class ShapeView {
 
   private surface(shape: ShapeData, solid: boolean): Mesh {
     this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
-    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.62, metalness: 0, side: solid ? FrontSide : DoubleSide });
+    const side = solid ? FrontSide : DoubleSide;
+    const material = tinted(new MeshStandardMaterial({ vertexColors: !shape.picture, roughness: 0.62, metalness: 0, side }));
     if (shape.picture) {
       material.map = pictureTexture(shape.picture.image);
       material.roughness = 0.9;
@@ -63,7 +62,7 @@ export class ShapeView {
 
   private dots(shape: ShapeData): Points {
     const size = (shape.dotSize ?? 0.006) * boundingBox(shape.positions).diagonal;
-    const material = new PointsMaterial({ vertexColors: true, size, sizeAttenuation: true, map: disc(), alphaTest: 0.5 });
+    const material = tinted(new PointsMaterial({ vertexColors: true, size, sizeAttenuation: true, map: disc(), alphaTest: 0.5 }));
     const points = new Points(this.geometry, material);
     points.castShadow = true;
     return points;
@@ -96,16 +95,12 @@ export class ShapeView {
     const regions = [stroke ?? doc.fixed, ...doc.handles.map((h) => h.vertices)];
     if (!stroke && regions.length === this.painted.length && regions.every((r, i) => r === this.painted[i])) return;
     this.painted = stroke ? [] : regions;
-    const colors = this.geometry.getAttribute("color") as BufferAttribute;
-    const out = colors.array as Float32Array;
-    for (let i = 0; i < out.length; i++) out[i] = linear[this.base[i]!]!;
-    for (const v of regions[0]!) this.tint(out, v, this.shape?.picture ? fixedWash : fixedTint, 0.72);
-    for (const held of regions.slice(1)) for (const v of held) this.tint(out, v, heldTint, 0.62);
-    colors.needsUpdate = true;
-  }
-
-  private tint(out: Float32Array, v: number, color: Color, share: number): void {
-    for (let k = 0; k < 3; k++) out[3 * v + k] = linear[Math.round((1 - share) * this.base[3 * v + k]! + share * color[k]!)]!;
+    const attribute = this.geometry.getAttribute("tint") as BufferAttribute;
+    const tints = attribute.array as Uint8Array;
+    tints.fill(0);
+    for (const v of regions[0]!) tints.set(fixedTint, 4 * v);
+    for (const held of regions.slice(1)) for (const v of held) tints.set(heldTint, 4 * v);
+    attribute.needsUpdate = true;
   }
 
   setWireframe(on: boolean): void {
@@ -127,11 +122,22 @@ export class ShapeView {
   }
 }
 
-function baseColors(shape: ShapeData): Uint8Array {
-  if (shape.colors) return shape.colors;
-  const color: Color = shape.picture ? [255, 255, 255] : clay;
-  const out = new Uint8Array(3 * vertexCount(shape));
-  for (let i = 0; i < out.length; i++) out[i] = color[i % 3]!;
+/** Lets a material mix in the colours of the attribute `tint` (rgb and share). */
+function tinted<T extends Material>(material: T): T {
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace("void main() {", "attribute vec4 tint;\nvarying vec4 vTint;\nvoid main() {\n  vTint = tint;");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("void main() {", "varying vec4 vTint;\nvoid main() {")
+      .replace("#include <color_fragment>", "#include <color_fragment>\n  diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb, vTint.a);");
+  };
+  return material;
+}
+
+/** Linear colours of the vertices. */
+function baseColors(shape: ShapeData): Float32Array {
+  const out = new Float32Array(3 * vertexCount(shape));
+  for (let i = 0; i < out.length; i++) out[i] = linear[shape.colors?.[i] ?? clay[i % 3]!]!;
   return out;
 }
 
