@@ -262,7 +262,7 @@ Points EmbeddedGraph::point_normals() const {
 
 Result<Points> EmbeddedGraph::transform_points(const Points& points) const {
   Points out;
-  embedded::carry(impl_->position_maps(), compute_influences(impl_->graph, points), points,
+  embedded::carry(impl_->position_maps(), compute_influences(shape(), impl_->graph, points), points,
                   impl_->graph.origin, out);
   return out;
 }
@@ -279,7 +279,7 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
   Points nodes(3, impl_->graph.size() + fresh.cols());
   nodes << impl_->graph.nodes, fresh;
   DeformationGraph refined = build_graph(shape(), std::move(nodes), impl_->options);
-  impl_->pose = embedded::inherited_pose(impl_->graph, impl_->pose, refined);
+  impl_->pose = embedded::inherited_pose(shape(), impl_->graph, impl_->pose, refined);
   impl_->graph = std::move(refined);
   impl_->grab_changed = true;
   return static_cast<Index>(fresh.cols());

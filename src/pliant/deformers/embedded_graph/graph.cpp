@@ -47,7 +47,7 @@ struct Nearest {
   void respect(const std::vector<CutSides>& node_sides,
                std::span<const unsigned char> point_sides) {
     for (std::size_t c = 0; c < node_sides.size(); ++c) {
-      unsigned char side = point_sides.empty() ? 0 : point_sides[c];
+      unsigned char side = point_sides[c];
       std::size_t kept = 0;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const unsigned char other = node_sides[c][nodes[i]];
@@ -85,7 +85,7 @@ void write_weights(const Nearest& nearest, int k, Index* indices, double* weight
   }
 }
 
-/// point_sides: one list a cut over the points, or none.
+/// point_sides: one list a cut over the points.
 Influences influences_of(const Points& nodes, const std::vector<CutSides>& node_sides, int k,
                          const Points& points, const std::vector<CutSides>& point_sides) {
   const PointCloud cloud{nodes};
@@ -149,16 +149,16 @@ CutSides point_sides_of(const Shape& shape, const Cut& cut) {
   return sides;
 }
 
-/// A node belongs to the side of the point of the shape nearest to it.
-std::vector<CutSides> node_sides_of(const Shape& shape, const Points& nodes,
-                                    const std::vector<CutSides>& point_sides) {
-  std::vector<CutSides> result(point_sides.size(), CutSides(nodes.cols(), 0));
+/// A node or foreign point belongs to the side of the point of the shape nearest to it.
+std::vector<CutSides> sides_by_nearest(const Shape& shape, const std::vector<CutSides>& point_sides,
+                                       const Points& queries) {
+  std::vector<CutSides> result(point_sides.size(), CutSides(queries.cols(), 0));
   if (point_sides.empty()) return result;
   const PointCloud cloud{shape.points()};
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
   Nearest nearest;
-  for (Index j = 0; j < nodes.cols(); ++j) {
-    nearest.find(tree, nodes.col(j), 1);
+  for (Index j = 0; j < queries.cols(); ++j) {
+    nearest.find(tree, queries.col(j), 1);
     for (std::size_t c = 0; c < result.size(); ++c) result[c][j] = point_sides[c][nearest.nodes[0]];
   }
   return result;
@@ -190,18 +190,20 @@ DeformationGraph build_graph(const Shape& shape, Points nodes,
   graph.nodes = std::move(nodes);
   const int k =
       options.neighbours > 0 ? options.neighbours : std::min<int>(kDefaultNeighbours, graph.size());
-  std::vector<CutSides> point_sides;
-  for (const Cut& cut : options.cuts) point_sides.push_back(point_sides_of(shape, cut));
-  graph.node_sides = node_sides_of(shape, graph.nodes, point_sides);
-  graph.influences = influences_of(graph.nodes, graph.node_sides, k, shape.points(), point_sides);
+  for (const Cut& cut : options.cuts) graph.point_sides.push_back(point_sides_of(shape, cut));
+  graph.node_sides = sides_by_nearest(shape, graph.point_sides, graph.nodes);
+  graph.influences =
+      influences_of(graph.nodes, graph.node_sides, k, shape.points(), graph.point_sides);
   graph.edges = edges_of(graph.influences, graph.size());
   graph.length_unit = mean_edge_length(graph.nodes, graph.edges, shape.diagonal());
   graph.origin = 0.5 * (shape.points().rowwise().minCoeff() + shape.points().rowwise().maxCoeff());
   return graph;
 }
 
-Influences compute_influences(const DeformationGraph& graph, const Points& points) {
-  return influences_of(graph.nodes, graph.node_sides, graph.influences.k, points, {});
+Influences compute_influences(const Shape& shape, const DeformationGraph& graph,
+                              const Points& points) {
+  return influences_of(graph.nodes, graph.node_sides, graph.influences.k, points,
+                       sides_by_nearest(shape, graph.point_sides, points));
 }
 
 }  // namespace pliant

@@ -42,7 +42,9 @@ Result<Points> place_nodes(const Shape& shape, const EmbeddedGraphOptions& optio
 /// Influences, edges and unit for given nodes (3 x m, m >= 1).
 DeformationGraph build_graph(const Shape& shape, Points nodes, const EmbeddedGraphOptions& options);
 
-/// Influences of a graph on any other points (3 x q), by the rules of its cuts.
-Influences compute_influences(const DeformationGraph& graph, const Points& points);
+/// Influences of a graph on any other points (3 x q); across its cuts a point is on the side of the
+/// nearest point of the shape.
+Influences compute_influences(const Shape& shape, const DeformationGraph& graph,
+                              const Points& points);
 
 }  // namespace pliant

@@ -30,14 +30,14 @@ struct Cut {
 struct EmbeddedGraphOptions {
   Index node_count = 0;  ///< 0: 250, or as many as the shape has points
   NodeSampling sampling = NodeSampling::surface;
-  Points nodes;        ///< 3 x m, for NodeSampling::nodes
+  Points nodes = {};   ///< 3 x m, for NodeSampling::nodes
   int neighbours = 0;  ///< k of eq. 4; 0: 4, or as many as there are nodes
   double rotation_weight = 1.0;
   double regularization_weight = 10.0;
   double constraint_weight = 100.0;
   EmbeddedGraphSolver solver = EmbeddedGraphSolver::automatic;
   bool exact_handles = false;  ///< targets are met exactly where the graph can meet them
-  std::vector<Cut> cuts;
+  std::vector<Cut> cuts = {};
   std::uint64_t seed = 1;
 
   /// Errors: invalid_option, naming the option, its value and what was expected.

@@ -64,14 +64,14 @@ Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const Gra
   return shape.points()(Eigen::all, chosen);
 }
 
-Pose inherited_pose(const DeformationGraph& old_graph, const Pose& old_pose,
+Pose inherited_pose(const Shape& shape, const DeformationGraph& old_graph, const Pose& old_pose,
                     const DeformationGraph& refined) {
   const Index kept = old_graph.size();
   const double rescale = old_graph.length_unit / refined.length_unit;
   Pose pose(12, refined.size());
   pose.leftCols(kept) = old_pose;
   const Points fresh = refined.nodes.rightCols(refined.size() - kept);
-  const Influences influences = compute_influences(old_graph, fresh);
+  const Influences influences = compute_influences(shape, old_graph, fresh);
   const Points g = old_graph.scaled(old_graph.nodes), p = old_graph.scaled(fresh);
   for (Index i = 0; i < fresh.cols(); ++i) {
     Eigen::Matrix3d u = Eigen::Matrix3d::Zero();

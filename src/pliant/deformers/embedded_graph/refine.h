@@ -14,7 +14,7 @@ Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const Gra
 
 /// The pose of a refined graph: its first nodes keep theirs, the others take the blended motion of
 /// the old graph at their place.
-Pose inherited_pose(const DeformationGraph& old_graph, const Pose& old_pose,
+Pose inherited_pose(const Shape& shape, const DeformationGraph& old_graph, const Pose& old_pose,
                     const DeformationGraph& refined);
 
 }  // namespace pliant::embedded

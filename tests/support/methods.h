@@ -1,0 +1,22 @@
+// Every registered method, for the laws that hold for all of them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pliant/solve/deformer.h"
+
+namespace pliant::test {
+
+struct Method {
+  std::string name;
+  std::function<std::unique_ptr<Deformer>(std::shared_ptr<const Shape>)> make;
+  /// How far results may differ when the scene is turned by any angle (law 5), over the diagonal.
+  double isotropy = 1e-5;
+};
+
+std::vector<Method> methods();
+
+}  // namespace pliant::test
