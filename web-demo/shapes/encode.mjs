@@ -3,7 +3,7 @@
 //   corners:   for each triangle met by walk.mjs but the first of a component a symbol, as it says;
 //   positions: for each point, in the order they are met, x y z in steps of a grid, less what the
 //              parallelogram over the edge predicts (in a component's first triangle: the last point);
-//   colours:   3 n bytes, r of all points then g then b, each less the last, in steps of 4, modulo 64.
+//   colours:   3 n bytes, r of all points then g then b, each less the last, in 64 levels, modulo 64.
 // Numbers are zigzag varints: 7 bits a byte, the top bit says that more follow.
 import { gzipSync } from "node:zlib";
 import { symbols, walk } from "./walk.mjs";
@@ -86,7 +86,7 @@ export function encodeMesh({ points, triangles, colors }) {
     });
   });
   const shades = [0, 1, 2].flatMap((k) => {
-    const levels = colors ? order.map((v) => Math.round((colors[v][k] * 255) / 4) & 63) : [];
+    const levels = colors ? order.map((v) => Math.round(colors[v][k] * 63)) : [];
     return levels.map((level, i) => (level - (i === 0 ? 0 : levels[i - 1])) & 63);
   });
   const packed = Buffer.concat([varints(stream), varints(residuals), Uint8Array.from(shades)]);

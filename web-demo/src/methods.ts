@@ -1,16 +1,8 @@
 // The table of deformation methods: the page's menus, sliders and scripts are made from it.
 
-/** A numeric option of a method, as the edit script names it. */
-export interface MethodOption {
-  key: string;
-  label: string;
-  /** One sentence for the tooltip. */
-  help: string;
-  min: number;
-  max: number;
-  step: number;
-  value: number;
-}
+/** An option of a method, as the edit script names it: a number on a slider, or a switch. */
+export type MethodOption = { key: string; label: string; /** One sentence for the tooltip. */ help: string } &
+  ({ min: number; max: number; step: number; value: number } | { value: boolean });
 
 export interface Method {
   id: string;
@@ -19,7 +11,7 @@ export interface Method {
   options: MethodOption[];
 }
 
-export type Options = Readonly<Record<string, number>>;
+export type Options = Readonly<Record<string, number | boolean>>;
 
 export const methods: readonly Method[] = [
   {
@@ -31,6 +23,7 @@ export const methods: readonly Method[] = [
       { key: "neighbours", label: "Nodes a point", help: "How many nodes carry each point: more blend more softly.", min: 2, max: 10, step: 1, value: 4 },
       { key: "regularizationWeight", label: "Smoothness", help: "How much neighbouring nodes agree.", min: 1, max: 50, step: 1, value: 10 },
       { key: "rotationWeight", label: "Rigidity", help: "How much each node keeps to a rotation.", min: 0.1, max: 10, step: 0.1, value: 1 },
+      { key: "exactHandles", label: "Exact handles", help: "Handles reach their targets exactly, not only nearly.", value: false },
     ],
   },
 ];
@@ -48,7 +41,7 @@ export function defaultOptions(method: Method): Options {
 /** The options a shape of so many vertices can take: never more nodes than vertices. */
 export function fittingOptions(options: Options, vertices: number): Options {
   if (options["nodeCount"] === undefined) return options;
-  const nodeCount = Math.min(options["nodeCount"], vertices);
-  const neighbours = Math.min(options["neighbours"] ?? 4, Math.max(1, nodeCount - 1));
+  const nodeCount = Math.min(Number(options["nodeCount"]), vertices);
+  const neighbours = Math.min(Number(options["neighbours"] ?? 4), Math.max(1, nodeCount - 1));
   return { ...options, nodeCount, neighbours };
 }

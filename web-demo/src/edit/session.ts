@@ -73,7 +73,7 @@ export class Session {
     return this.replace({ ...this.doc, method: id, options: defaultOptions(methodOf(id)) });
   }
 
-  setOption(key: string, value: number): Promise<boolean> {
+  setOption(key: string, value: number | boolean): Promise<boolean> {
     return this.replace({ ...this.doc, options: { ...this.doc.options, [key]: value } }, `option ${key}`);
   }
 

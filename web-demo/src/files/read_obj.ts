@@ -38,4 +38,12 @@ export function rewriteObj(text: string, positions: Float32Array): string {
 
 /** Three single-precision numbers, each as short as it can be without loss. */
 export const objNumbers = (positions: Float32Array, v: number): string =>
-  [0, 1, 2].map((k) => String(Number(positions[3 * v + k]!.toPrecision(9)))).join(" ");
+  [0, 1, 2].map((k) => shortest(positions[3 * v + k]!)).join(" ");
+
+function shortest(single: number): string {
+  for (let digits = 6; digits < 9; digits++) {
+    const rounded = Number(single.toPrecision(digits));
+    if (Math.fround(rounded) === single) return String(rounded);
+  }
+  return String(Number(single.toPrecision(9)));
+}

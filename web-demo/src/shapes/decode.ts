@@ -78,7 +78,7 @@ export async function decodeMesh(packed: PackedMesh): Promise<PlainMesh> {
   for (let k = 0; k < 3; k++) {
     for (let v = 0, level = 0; v < packed.points; v++) {
       level = (level + reader.byte()) & 63;
-      colors[3 * v + k] = 4 * level;
+      colors[3 * v + k] = Math.round((level * 255) / 63);
     }
   }
   return { positions, triangles, colors };

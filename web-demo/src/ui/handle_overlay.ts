@@ -2,7 +2,7 @@
 // ring around the selected one that turns it.
 import { HandleDrag, placeOf, type DragMode } from "../tools/handle_drag.ts";
 import { rotated, translated, type Motion } from "../edit/motion.ts";
-import type { HandleDoc } from "../edit/document.ts";
+import { hasMoved, type HandleDoc } from "../edit/document.ts";
 import type { Stage } from "../tools/tool.ts";
 import { make, makeSvg } from "./dom.ts";
 
@@ -30,6 +30,7 @@ export class HandleOverlay {
   /** Matches the buttons with the document. */
   refresh(): void {
     const { doc, selected } = this.stage.session;
+    if (hasMoved(doc)) this.greeting = false;
     for (const [id, button] of this.buttons) {
       if (doc.handles.some((h) => h.id === id)) continue;
       button.remove();
@@ -103,7 +104,6 @@ export class HandleOverlay {
     });
     on("pointermove", (event) => {
       drag?.move({ x: event.clientX, y: event.clientY });
-      if (drag) this.greeting = false;
     });
     for (const type of ["pointerup", "pointercancel"]) {
       on(type, () => {
@@ -121,7 +121,6 @@ export class HandleOverlay {
     else {
       const motion = this.moved(handle, event);
       if (!motion) return;
-      this.greeting = false;
       this.stage.session.nudge(id, motion);
     }
     event.preventDefault();

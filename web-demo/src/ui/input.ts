@@ -14,22 +14,30 @@ export class Input {
     for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, (event) => this.up(event));
     canvas.addEventListener("pointerleave", () => this.tool().hover?.(undefined));
     canvas.addEventListener("keydown", (event) => this.key(event));
-    canvas.addEventListener("focus", () => this.refresh());
-    canvas.addEventListener("blur", () => this.refresh());
+    canvas.addEventListener("focus", () => this.useKeys(canvas.matches(":focus-visible")));
+    canvas.addEventListener("blur", () => this.useKeys(false));
+  }
+
+  /** Whether the visitor works in the view with the keyboard: its frame shows, and the cross. */
+  private useKeys(on: boolean): void {
+    this.stage.viewport.canvas.toggleAttribute("data-keys", on);
+    this.refresh();
   }
 
   /** The cross stands in the middle while the keyboard is in the view and the tool can use it. */
   refresh(): void {
     const { canvas, middle } = this.stage.viewport;
     this.cross.style.transform = `translate(${middle.x}px, ${middle.y}px)`;
-    this.cross.hidden = !(canvas.matches(":focus-visible") && this.tool().act);
+    this.cross.hidden = !(canvas.hasAttribute("data-keys") && this.tool().act);
     canvas.dataset["tool"] = this.tool().id;
     this.stage.showBrush();
   }
 
   private down(event: PointerEvent): void {
     const { canvas } = this.stage.viewport;
-    if (event.target !== canvas || event.button !== 0) return;
+    if (event.target !== canvas) return;
+    this.useKeys(false);
+    if (event.button !== 0) return;
     if (this.holder !== undefined) return event.stopPropagation();
     if (!this.tool().down({ x: event.clientX, y: event.clientY })) return;
     this.holder = event.pointerId;
@@ -53,6 +61,7 @@ export class Input {
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { viewport } = this.stage;
+    if (event.key !== "Shift" && !viewport.canvas.hasAttribute("data-keys")) this.useKeys(true);
     const step = event.shiftKey ? 0.4 : 0.1;
     switch (event.key) {
       case "ArrowLeft": viewport.orbit(-step, 0); break;

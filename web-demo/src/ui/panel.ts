@@ -1,7 +1,7 @@
 // The settings beside the view: shape, method and its options, what is shown, export.
 import type { Session } from "../edit/session.ts";
 import { download, type ExportKind } from "../files/export.ts";
-import { methodOf, methods } from "../methods.ts";
+import { methodOf, methods, type MethodOption } from "../methods.ts";
 import { catalog } from "../shapes/catalog.ts";
 import { byId, make } from "./dom.ts";
 
@@ -68,19 +68,29 @@ export class Panel {
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
     for (const input of this.options.querySelectorAll("input")) {
-      input.value = String(doc.options[input.name]);
-      (input.previousElementSibling as HTMLOutputElement).value = input.value;
+      const value = doc.options[input.name];
+      if (typeof value === "boolean") input.checked = value;
+      else (input.previousElementSibling as HTMLOutputElement).value = input.value = String(value);
     }
   }
 
   private makeOptions(method: string): void {
     this.shownMethod = method;
-    this.options.replaceChildren(...methodOf(method).options.map(({ key, label, help, min, max, step }) => {
-      const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${min}`, max: `${max}`, step: `${step}` });
-      const output = make("output", { for: `option-${key}` });
-      input.addEventListener("input", () => (output.value = input.value));
-      input.addEventListener("change", () => void this.session.setOption(key, Number(input.value)));
-      return make("label", { class: "option", title: help, for: input.id }, label, output, input); // an output could be labelled too
-    }));
+    this.options.replaceChildren(...methodOf(method).options.map((option) =>
+      "min" in option ? this.slider(option) : this.toggle(option)));
+  }
+
+  private slider({ key, label, help, min, max, step }: Extract<MethodOption, { min: number }>): HTMLElement {
+    const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${min}`, max: `${max}`, step: `${step}` });
+    const output = make("output", { for: input.id });
+    input.addEventListener("input", () => (output.value = input.value));
+    input.addEventListener("change", () => void this.session.setOption(key, Number(input.value)));
+    return make("label", { class: "option", title: help, for: input.id }, label, output, input); // an output could be labelled too
+  }
+
+  private toggle({ key, label, help }: MethodOption): HTMLElement {
+    const input = make("input", { type: "checkbox", id: `option-${key}`, name: key });
+    input.addEventListener("change", () => void this.session.setOption(key, input.checked));
+    return make("label", { class: "check", title: help }, input, label);
   }
 }

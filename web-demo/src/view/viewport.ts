@@ -8,8 +8,9 @@ import type { Box } from "../shapes/shape.ts";
 
 const defaultView = [0.42, 0.25, 1] as const;
 
-/** Pixels at the bottom that the toolbar takes. */
-const toolbarRoom = 90;
+/** Pixels that the bars at the top and at the bottom take. */
+const topRoom = 56;
+const bottomRoom = 90;
 
 export class Viewport {
   readonly scene = new Scene();
@@ -30,9 +31,8 @@ export class Viewport {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
-    this.sun.shadow.radius = 5;
-    this.sun.shadow.blurSamples = 12;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.radius = 2.5;
     this.ground.rotation.x = -Math.PI / 2;
     this.ground.receiveShadow = true;
     const sky = new HemisphereLight(0xffffff, 0xb9a99a, 1.35);
@@ -75,7 +75,7 @@ export class Viewport {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.camera.setViewOffset(width, height, this.inset / 2, toolbarRoom / 2, width, height);
+    this.camera.setViewOffset(width, height, this.inset / 2, (bottomRoom - topRoom) / 2, width, height);
   }
 
   /** Centres the picture left of so many pixels at the right. */
@@ -87,7 +87,7 @@ export class Viewport {
 
   /** The middle of the picture, in pixels from the canvas's top left corner. */
   get middle(): { x: number; y: number } {
-    return { x: (this.canvas.clientWidth - this.inset) / 2, y: (this.canvas.clientHeight - toolbarRoom) / 2 };
+    return { x: (this.canvas.clientWidth - this.inset) / 2, y: (this.canvas.clientHeight - bottomRoom + topRoom) / 2 };
   }
 
   /** Looks at a new shape from `from`; scales light and ground to it. */
@@ -95,8 +95,8 @@ export class Viewport {
     const radius = Math.max(box.diagonal / 2, 1e-9);
     const center = new Vector3(...box.center);
     const { clientWidth, clientHeight } = this.canvas;
-    const narrow = Math.min(clientHeight - toolbarRoom, clientWidth - this.inset) / clientHeight;
-    const distance = (0.9 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    const narrow = Math.min(clientHeight - topRoom - bottomRoom, clientWidth - this.inset) / clientHeight;
+    const distance = (0.86 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
     this.camera.near = radius / 50;
     this.camera.far = radius * 60;
     this.camera.position.copy(center).addScaledVector(new Vector3(...from).normalize(), distance);
