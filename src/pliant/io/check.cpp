@@ -1,7 +1,8 @@
 #include "pliant/io/check.h"
 
 #include <cmath>
-#include <string>
+
+#include "pliant/io/message.h"
 
 namespace pliant::io {
 
@@ -9,8 +10,8 @@ Status check_finite(std::span<const double> values, const char* name) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     const char* value = std::isnan(values[i]) ? "NaN" : values[i] > 0 ? "Infinity" : "-Infinity";
-    return {ErrorCode::invalid_shape, std::string(name) + "[" + std::to_string(i) + "] is " +
-                                          value + "; expected a finite number"};
+    return {ErrorCode::invalid_shape,
+            message({name, "[", i, "] is ", value, "; expected a finite number"})};
   }
   return {};
 }

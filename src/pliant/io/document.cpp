@@ -6,6 +6,7 @@
 #include "pliant/geometry/shape.h"
 #include "pliant/io/check.h"
 #include "pliant/io/draft.h"
+#include "pliant/io/message.h"
 #include "pliant/io/obj.h"
 #include "pliant/io/off.h"
 #include "pliant/io/ply.h"
@@ -21,17 +22,16 @@ constexpr std::size_t piece_size = 1 << 20;
 constexpr std::size_t max_vertices = Shape::max_vertices;
 constexpr std::size_t longest_number = 24;  // -1.2345678901234567e-308
 
-Status invalid(const std::string& message) { return {ErrorCode::invalid_shape, message}; }
+Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
-Status too_large(const std::string& message) { return {ErrorCode::too_large, message}; }
+Status too_large(Pieces reason) { return {ErrorCode::too_large, message(reason)}; }
 
 /// Without exceptions a vector that cannot grow ends the program, so the memory for the output of a
 /// large file is asked for first.
 Status reserve(Bytes& out, std::uint64_t size) {
   void* memory = size < SIZE_MAX / 2 ? std::malloc(static_cast<std::size_t>(size)) : nullptr;
   if (!memory) {
-    return too_large("the new file needs up to " + std::to_string(size) +
-                     " bytes; that much memory is not left");
+    return too_large({"the new file needs up to ", size, " bytes; that much memory is not left"});
   }
   std::free(memory);
   out.reserve(static_cast<std::size_t>(size));
@@ -50,12 +50,12 @@ std::uint64_t size_bound(const PolygonMesh& mesh) {
 
 Status check_positions(std::span<const double> positions) {
   if (positions.empty() || positions.size() % 3 != 0) {
-    return invalid("positions has " + std::to_string(positions.size()) +
-                   " numbers; expected 3 a vertex and at least one vertex");
+    return invalid({"positions has ", positions.size(),
+                    " numbers; expected 3 a vertex and at least one vertex"});
   }
   if (positions.size() / 3 > max_vertices) {
-    return too_large("the shape has " + std::to_string(positions.size() / 3) +
-                     " vertices; expected at most " + std::to_string(max_vertices));
+    return too_large(
+        {"the shape has ", positions.size() / 3, " vertices; expected at most ", max_vertices});
   }
   return check_finite(positions, "positions");
 }
@@ -63,20 +63,20 @@ Status check_positions(std::span<const double> positions) {
 /// Reads polygons as (count, ids...) into the mesh.
 Status take_polygons(std::span<const std::int32_t> polygons, PolygonMesh& mesh) {
   if (polygons.size() > PolygonCollector::max_corners) {
-    return too_large("polygons has " + std::to_string(polygons.size()) +
-                     " numbers; expected at most " + std::to_string(PolygonCollector::max_corners));
+    return too_large({"polygons has ", polygons.size(), " numbers; expected at most ",
+                      PolygonCollector::max_corners});
   }
   for (std::size_t at = 0; at < polygons.size();) {
     const std::int32_t corners = polygons[at++];
-    const std::string name = "polygon " + std::to_string(mesh.face_count());
+    const std::string name = message({"polygon ", mesh.face_count()});
     if (corners < 3 || static_cast<std::size_t>(corners) > polygons.size() - at) {
-      return invalid(name + " has a count of " + std::to_string(corners) +
-                     "; expected at least 3 corners, all of them in the list");
+      return invalid({name, " has a count of ", corners,
+                      "; expected at least 3 corners, all of them in the list"});
     }
     for (const std::int32_t id : polygons.subspan(at, static_cast<std::size_t>(corners))) {
       if (id < 0 || static_cast<std::size_t>(id) >= mesh.vertex_count()) {
-        return invalid(name + " refers to vertex " + std::to_string(id) + "; the shape has " +
-                       std::to_string(mesh.vertex_count()) + " vertices, counted from 0");
+        return invalid({name, " refers to vertex ", id, "; the shape has ", mesh.vertex_count(),
+                        " vertices, counted from 0"});
       }
       mesh.face_vertices.push_back(static_cast<std::uint32_t>(id));
     }
@@ -90,8 +90,8 @@ Status take_polygons(std::span<const std::int32_t> polygons, PolygonMesh& mesh) 
 
 Status Document::read(FileFormat format, Bytes bytes) {
   if (bytes.size() > max_bytes) {
-    return too_large("the file has " + std::to_string(bytes.size()) + " bytes; at most " +
-                     std::to_string(max_bytes) + " can be read whole");
+    return too_large(
+        {"the file has ", bytes.size(), " bytes; at most ", max_bytes, " can be read whole"});
   }
   PolygonCollector polygons;
   const std::unique_ptr<Scanner> scanner = make_scanner(format, &polygons);
@@ -105,10 +105,9 @@ Status Document::read(FileFormat format, Bytes bytes) {
     at += *taken;
     positions.insert(positions.end(), draft.points().begin(), draft.points().end());
     if (positions.size() / 3 > max_vertices || polygons.too_large()) {
-      return too_large(scanner->place() + ": more than " + std::to_string(max_vertices) +
-                       " vertices, " + std::to_string(PolygonCollector::max_corners) +
-                       " corners of faces or " + std::to_string(PolygonCollector::max_texcoords) +
-                       " texture coordinates");
+      return too_large({scanner->place(), ": more than ", max_vertices, " vertices, ",
+                        PolygonCollector::max_corners, " corners of faces or ",
+                        PolygonCollector::max_texcoords, " texture coordinates"});
     }
   }
   const Status status = scanner->finish();
@@ -137,8 +136,8 @@ Status Document::assign(std::span<const double> positions, std::span<const std::
 Status Document::assign_texcoords(std::span<const double> texcoords) {
   const std::size_t corners = mesh_.face_vertices.size();
   if (texcoords.size() != 2 * corners) {
-    return invalid("texture coordinates has " + std::to_string(texcoords.size()) +
-                   " numbers; expected 2 for each of " + std::to_string(corners) + " corners");
+    return invalid({"texture coordinates has ", texcoords.size(),
+                    " numbers; expected 2 for each of ", corners, " corners"});
   }
   const Status finite = check_finite(texcoords, "texture coordinates");
   if (!finite.ok()) return finite;
@@ -151,12 +150,12 @@ Status Document::assign_texcoords(std::span<const double> texcoords) {
 }
 
 Result<Bytes> Document::write(FileFormat format, std::span<const double> positions) const {
-  if (mesh_.positions.empty()) return invalid("the document is empty; read or assign one first");
+  if (mesh_.positions.empty()) return invalid({"the document is empty; read or assign one first"});
   const Status checked = check_positions(positions);
   if (!checked.ok()) return checked;
   if (positions.size() != mesh_.positions.size()) {
-    return invalid("positions has " + std::to_string(positions.size() / 3) +
-                   " vertices; the document has " + std::to_string(mesh_.vertex_count()));
+    return invalid({"positions has ", positions.size() / 3, " vertices; the document has ",
+                    mesh_.vertex_count()});
   }
   if (format == format_ && !source_.empty()) return rewrite(positions);
   return convert(format, positions);

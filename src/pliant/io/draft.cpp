@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "pliant/io/check.h"
+#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {
@@ -64,10 +64,8 @@ Status Draft::append_value(double value, Bytes& out) const {
     case NumberStyle::float_little: {
       const auto rounded = static_cast<float>(value);
       if (!std::isfinite(rounded)) {
-        Bytes digits;
-        append_number(digits, value);
-        return {ErrorCode::invalid_shape, "coordinate " + std::string(text_of(digits)) +
-                                              " does not fit the 32-bit numbers of binary STL"};
+        return {ErrorCode::invalid_shape,
+                message({"coordinate ", value, " does not fit the 32-bit numbers of binary STL"})};
       }
       store(out, rounded, false);
       break;
@@ -78,8 +76,8 @@ Status Draft::append_value(double value, Bytes& out) const {
 
 Status Draft::emit(std::span<const double> coordinates, Bytes& out) const {
   if (coordinates.size() != points_.size()) {
-    return {ErrorCode::invalid_shape, "positions has " + std::to_string(coordinates.size()) +
-                                          " numbers; expected " + std::to_string(points_.size())};
+    return {ErrorCode::invalid_shape,
+            message({"positions has ", coordinates.size(), " numbers; expected ", points_.size()})};
   }
   const Status finite = check_finite(coordinates, "positions");
   if (!finite.ok()) return finite;

@@ -1,6 +1,8 @@
 #include "pliant/io/format.h"
 
-#include <string>
+#include <utility>
+
+#include "pliant/io/message.h"
 
 namespace pliant::io {
 
@@ -13,8 +15,8 @@ Result<FileFormat> format_from_name(std::string_view name) {
   for (const auto& [known, format] : formats) {
     if (name == known) return format;
   }
-  return Status(ErrorCode::invalid_option, "format is \"" + std::string(name.substr(0, 40)) +
-                                               "\"; expected obj, ply, off, stl or xyz");
+  return Status(ErrorCode::invalid_option, message({"format is \"", name.substr(0, 40),
+                                                    "\"; expected obj, ply, off, stl or xyz"}));
 }
 
 }  // namespace pliant::io

@@ -72,12 +72,11 @@ Status TextScanner::take_point(std::string_view line, std::size_t& kept, std::si
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view word = next_word(line, at);
     if (word.empty()) {
-      return failure("expected 3 coordinates, found " + std::to_string(axis));
+      return failure({"expected 3 coordinates, found ", axis});
     }
     const std::optional<double> value = read_number(word);
     if (!value) {
-      return failure(std::string(axes[axis]) + " is " + quoted(word) +
-                     "; expected a finite decimal number");
+      return failure({axes[axis], " is ", quoted(word), "; expected a finite decimal number"});
     }
     draft.keep(line.substr(kept, at - word.size() - kept));
     draft.coordinate(*value);

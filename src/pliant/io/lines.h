@@ -31,7 +31,7 @@ std::string quoted(std::string_view word);
 /// What the text formats share: places are lines, and points are three words.
 class TextScanner : public Scanner {
  public:
-  std::string place() const final { return "line " + std::to_string(line_); }
+  std::string place() const final { return message({"line ", line_}); }
 
  protected:
   /// Reads three numbers of the line from `at` on and puts them into the draft with the bytes

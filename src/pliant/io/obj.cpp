@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pliant/io/lines.h"
+#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 #include "pliant/io/obj_faces.h"
 
@@ -59,8 +60,8 @@ bool is_readable_corner(std::string_view word) {
 Status ObjFaceReader::add(std::string_view words, std::uint64_t line,
                           std::uint64_t vertices_before) {
   constexpr std::size_t batch = 1 << 16;
-  const auto fail = [line](const std::string& reason) {
-    return Status(ErrorCode::parse_error, "line " + std::to_string(line) + ": " + reason);
+  const auto fail = [line](Pieces reason) {
+    return Status(ErrorCode::parse_error, message({"line ", line, ": ", message(reason)}));
   };
   words = without_comment(words);
   statements_ += "f";
@@ -68,14 +69,14 @@ Status ObjFaceReader::add(std::string_view words, std::uint64_t line,
   int corners = 0;
   for (std::string_view word = next_word(words, at); !word.empty(); word = next_word(words, at)) {
     if (!is_readable_corner(word)) {
-      return fail("face corner is " + quoted(word) + "; expected vertex ids, as in 1/2/3");
+      return fail({"face corner is ", quoted(word), "; expected vertex ids, as in 1/2/3"});
     }
     (statements_ += ' ') += word;
     ++corners;
   }
   statements_ += '\n';
   if (corners < 3) {
-    return fail("face has " + std::to_string(corners) + " corners; expected at least 3");
+    return fail({"face has ", corners, " corners; expected at least 3"});
   }
   origins_.push_back({line, vertices_before, polygons_.texcoord_count()});
   return statements_.size() < batch ? Status() : flush();
@@ -95,10 +96,9 @@ std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind,
   const std::uint64_t back = 0 - static_cast<std::uint64_t>(std::int64_t{id});
   if (id < 0 && back <= before) return static_cast<std::uint32_t>(before - back);
   const std::string reason =
-      id == 0 ? "; ids count from 1" : "; " + std::to_string(before) + " stand before it";
-  error_ = {ErrorCode::parse_error, "line " + std::to_string(origins_[current_].line) +
-                                        ": face refers to " + kind + " " + std::to_string(id) +
-                                        reason};
+      id == 0 ? "; ids count from 1" : message({"; ", before, " stand before it"});
+  error_ = {ErrorCode::parse_error, message({"line ", origins_[current_].line, ": face refers to ",
+                                             kind, " ", id, reason})};
   return std::nullopt;
 }
 
@@ -173,8 +173,8 @@ Status ObjScanner::read_texcoord(std::string_view line, std::size_t at) {
     if (word.empty() && i == 1) break;
     const std::optional<double> value = read_number(word);
     if (!value) {
-      return failure("texture coordinate is " + quoted(word) +
-                     "; expected a finite decimal number");
+      return failure(
+          {"texture coordinate is ", quoted(word), "; expected a finite decimal number"});
     }
     uv[i] = *value;
   }

@@ -74,7 +74,7 @@ Status OffScanner::scan_header(std::string_view line, Draft& draft) {
   const std::size_t normal_letter = length;
   has_normals_ = take("N");
   if (!take("OFF")) {
-    return failure("expected OFF, COFF, NOFF or STOFF, found " + quoted(word));
+    return failure({"expected OFF, COFF, NOFF or STOFF, found ", quoted(word)});
   }
   const std::size_t start = at - word.size();
   draft.keep(line.substr(0, start + normal_letter));
@@ -90,7 +90,9 @@ Status OffScanner::scan_counts(std::string_view words) {
   for (std::uint64_t* count : {&vertex_count_, &face_count_}) {
     const std::string_view word = next_word(words, at);
     const std::optional<std::uint64_t> value = read_count(word);
-    if (!value) return failure("expected the numbers of vertices and faces, found " + quoted(word));
+    if (!value) {
+      return failure({"expected the numbers of vertices and faces, found ", quoted(word)});
+    }
     *count = *value;
   }
   expected_ = vertex_count_ == 0 ? Expected::nothing : Expected::vertices;
@@ -104,7 +106,7 @@ Status OffScanner::scan_vertex(std::string_view line, Draft& draft) {
   if (!status.ok()) return status;
   const std::string_view words = without_comment(line);
   for (int i = 0; has_normals_ && i < 3; ++i) {
-    if (next_word(words, at).empty()) return failure("expected 3 numbers of a normal");
+    if (next_word(words, at).empty()) return failure({"expected 3 numbers of a normal"});
   }
   draft.keep(line.substr(at));
   if (vertices_ == vertex_count_) {
@@ -122,7 +124,7 @@ Status OffScanner::read_vertex_texcoord(std::string_view words) {
     uv[0] = uv[1];
     uv[1] = read_number(word);
   }
-  if (!uv[0] || !uv[1]) return failure("expected 2 finite texture coordinates at the end");
+  if (!uv[0] || !uv[1]) return failure({"expected 2 finite texture coordinates at the end"});
   polygons_->texcoord(*uv[0], *uv[1]);
   return {};
 }
@@ -133,17 +135,16 @@ Status OffScanner::read_face(std::string_view words) {
   std::size_t at = 0;
   const std::string_view first = next_word(words, at);
   const std::optional<std::uint64_t> corners = read_count(first);
-  if (!corners) return failure("expected the number of corners, found " + quoted(first));
+  if (!corners) return failure({"expected the number of corners, found ", quoted(first)});
   for (std::uint64_t i = 0; i < *corners; ++i) {
     const std::string_view word = next_word(words, at);
     if (word.empty()) {
-      return failure("face has " + std::to_string(i) + " corners; expected " +
-                     std::to_string(*corners));
+      return failure({"face has ", i, " corners; expected ", *corners});
     }
     const std::optional<std::uint64_t> id = read_count(word);
     if (!id || *id >= vertex_count_) {
-      return failure("face refers to vertex " + quoted(word) + "; expected ids from 0 to " +
-                     std::to_string(vertex_count_ - 1));
+      return failure(
+          {"face refers to vertex ", quoted(word), "; expected ids from 0 to ", vertex_count_ - 1});
     }
     const auto vertex = static_cast<std::uint32_t>(*id);
     polygons_->corner(vertex, has_texcoords_ ? vertex : PolygonMesh::no_texcoord, line_);
@@ -154,14 +155,13 @@ Status OffScanner::read_face(std::string_view words) {
 
 Status OffScanner::finish() {
   const auto ends_early = [this](std::uint64_t found, std::uint64_t count, const char* what) {
-    return failure("the file ends after " + std::to_string(found) + " of " + std::to_string(count) +
-                   " " + what);
+    return failure({"the file ends after ", found, " of ", count, " ", what});
   };
   switch (expected_) {
     case Expected::header:
-      return failure("expected OFF, found the end of the file");
+      return failure({"expected OFF, found the end of the file"});
     case Expected::counts:
-      return failure("expected the numbers of vertices and faces");
+      return failure({"expected the numbers of vertices and faces"});
     case Expected::vertices:
       return ends_early(vertices_, vertex_count_, "vertices");
     case Expected::faces:

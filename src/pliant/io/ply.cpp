@@ -21,9 +21,7 @@ class PlyScanner final : public Scanner {
 
   Result<std::size_t> scan(std::string_view input, bool last, Draft& draft) override;
   Status finish() override;
-  std::string place() const override {
-    return (is_text() ? "line " : "byte ") + std::to_string(where_);
-  }
+  std::string place() const override { return message({is_text() ? "line " : "byte ", where_}); }
 
  private:
   bool is_text() const { return !header_ || header_->encoding == PlyEncoding::ascii; }
@@ -80,12 +78,12 @@ Result<std::size_t> PlyScanner::scan_header(std::string_view input, bool last, D
   constexpr std::string_view magic = "ply";
   if (!magic.starts_with(input.substr(0, magic.size()))) {
     std::size_t at = 0;
-    return failure("expected ply, found " + quoted(next_word(input, at)));
+    return failure({"expected ply, found ", quoted(next_word(input, at))});
   }
   const std::size_t size = ply_header_size(input);
   if (size == 0) {
     if (!last) return std::size_t{0};
-    return failure("the header has no end_header line");
+    return failure({"the header has no end_header line"});
   }
   Result<PlyHeader> header = parse_ply_header(input.substr(0, size));
   if (!header.ok()) return header.status();
@@ -140,14 +138,14 @@ Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string
   blank_ = next_word(line, at).empty();
   if (blank_ || (element.name != "vertex" && !polygons_)) return end;
   const std::string error = read_text_record(element, line, record_);
-  if (!error.empty()) return failure(error);
+  if (!error.empty()) return failure({error});
   return end;
 }
 
 Result<std::size_t> PlyScanner::read_binary(const PlyElement& element, std::string_view input) {
   std::string error;
   const std::size_t size = ply_record_size(element, is_big_endian(), input, error);
-  if (!error.empty()) return failure(error);
+  if (!error.empty()) return failure({error});
   if (size > 0) read_binary_record(element, is_big_endian(), input, record_);
   return size;
 }
@@ -175,8 +173,7 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
     }
     const double value = record_.values[field.first];
     if (!std::isfinite(value)) {
-      return failure(element.properties[i].name + " of vertex " + std::to_string(index_) +
-                     " is not finite");
+      return failure({element.properties[i].name, " of vertex ", index_, " is not finite"});
     }
     if (role > PlyRole::z) {
       texcoord[role == PlyRole::u ? 0 : 1] = value;
@@ -216,7 +213,7 @@ Status PlyScanner::add_polygon(std::span<const double> ids, std::span<const doub
     std::uint32_t texcoord = vertex_texcoords_ ? *id : PolygonMesh::no_texcoord;
     if (own_texcoords && !vertex_texcoords_) {
       if (!std::isfinite(texcoords[2 * i]) || !std::isfinite(texcoords[2 * i + 1])) {
-        return failure("a texture coordinate is not finite");
+        return failure({"a texture coordinate is not finite"});
       }
       texcoord = polygons_->texcoord_count();
       polygons_->texcoord(texcoords[2 * i], texcoords[2 * i + 1]);
@@ -257,10 +254,7 @@ Result<std::uint32_t> PlyScanner::vertex_id(double value) const {
   if (value >= 0 && value <= most && value == std::floor(value)) {
     return static_cast<std::uint32_t>(value);
   }
-  Bytes text;
-  if (std::isfinite(value)) append_number(text, value);
-  return failure("face refers to vertex " + (text.empty() ? "nan" : std::string(text_of(text))) +
-                 "; expected whole numbers from 0 up");
+  return failure({"face refers to vertex ", value, "; expected whole numbers from 0 up"});
 }
 
 void PlyScanner::skip_finished_elements() {
@@ -272,12 +266,12 @@ void PlyScanner::skip_finished_elements() {
 
 Status PlyScanner::ends_early() const {
   const PlyElement& element = header_->elements[element_];
-  return failure("the file ends after " + std::to_string(index_) + " of " +
-                 std::to_string(element.count) + " records of element " + quoted(element.name));
+  return failure({"the file ends after ", index_, " of ", element.count, " records of element ",
+                  quoted(element.name)});
 }
 
 Status PlyScanner::finish() {
-  if (!header_) return failure("expected ply, found the end of the file");
+  if (!header_) return failure({"expected ply, found the end of the file"});
   skip_finished_elements();
   if (element_ < header_->elements.size()) return ends_early();
   const Status status = require_vertices(vertices_);
@@ -299,7 +293,7 @@ void write_ply(const PolygonMesh& mesh, std::span<const double> positions, Bytes
     longest = std::max(longest, mesh.face_offsets[f + 1] - mesh.face_offsets[f]);
   }
   const bool short_lists = 2 * std::uint64_t{longest} <= 255;
-  const std::string list = std::string("property list ") + (short_lists ? "uchar" : "uint");
+  const std::string list = short_lists ? "property list uchar" : "property list uint";
   const auto store_length = [&out, short_lists](std::uint32_t length) {
     if (short_lists) {
       store(out, static_cast<std::uint8_t>(length), false);

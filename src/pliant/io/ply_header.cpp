@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pliant/io/lines.h"
+#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {
@@ -69,8 +70,8 @@ class HeaderParser {
   Result<PlyHeader> parse(std::string_view text);
 
  private:
-  Status failure(const std::string& reason) const {
-    return {ErrorCode::parse_error, "line " + std::to_string(header_.lines + 1) + ": " + reason};
+  Status failure(Pieces reason) const {
+    return {ErrorCode::parse_error, message({"line ", header_.lines + 1, ": ", message(reason)})};
   }
   Status parse_line(std::string_view line);
   Status parse_format(std::string_view line, std::size_t at);
@@ -103,8 +104,8 @@ Status HeaderParser::parse_line(std::string_view line) {
   if (keyword == "end_header") return check();
   constexpr std::string_view others[] = {"ply", "comment", "obj_info", ""};
   if (std::find(std::begin(others), std::end(others), keyword) != std::end(others)) return {};
-  return failure("found " + quoted(keyword) +
-                 "; expected format, element, property, comment, obj_info or end_header");
+  return failure({"found ", quoted(keyword),
+                  "; expected format, element, property, comment, obj_info or end_header"});
 }
 
 Status HeaderParser::parse_format(std::string_view line, std::size_t at) {
@@ -117,8 +118,8 @@ Status HeaderParser::parse_format(std::string_view line, std::size_t at) {
   } else if (name == "binary_big_endian") {
     header_.encoding = PlyEncoding::binary_big;
   } else {
-    return failure("format is " + quoted(name) +
-                   "; expected ascii, binary_little_endian or binary_big_endian");
+    return failure({"format is ", quoted(name),
+                    "; expected ascii, binary_little_endian or binary_big_endian"});
   }
   return {};
 }
@@ -129,13 +130,13 @@ Status HeaderParser::parse_element(std::string_view line, std::size_t at) {
   const std::string_view word = next_word(line, at);
   const std::optional<std::uint64_t> count = read_count(word);
   if (!count) {
-    return failure("the count of element " + quoted(element.name) + " is " + quoted(word) +
-                   "; expected a whole number");
+    return failure({"the count of element ", quoted(element.name), " is ", quoted(word),
+                    "; expected a whole number"});
   }
   element.count = *count;
   for (const PlyElement& other : header_.elements) {
     if (other.name == element.name) {
-      return failure("element " + quoted(element.name) + " stands twice");
+      return failure({"element ", quoted(element.name), " stands twice"});
     }
   }
   header_.elements.push_back(std::move(element));
@@ -143,7 +144,7 @@ Status HeaderParser::parse_element(std::string_view line, std::size_t at) {
 }
 
 Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
-  if (header_.elements.empty()) return failure("property before the first element");
+  if (header_.elements.empty()) return failure({"property before the first element"});
   PlyElement& element = header_.elements.back();
   PlyProperty property;
   std::string_view type_name = next_word(line, at);
@@ -152,22 +153,22 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
     const std::string_view count_name = next_word(line, at);
     const std::optional<PlyType> count_type = type_from_name(count_name);
     if (!count_type || *count_type >= PlyType::float32) {
-      return failure("the counts of a list are " + quoted(count_name) +
-                     "; expected an integer type");
+      return failure(
+          {"the counts of a list are ", quoted(count_name), "; expected an integer type"});
     }
     property.count_type = *count_type;
     type_name = next_word(line, at);
   }
   const std::size_t type_end = at;
   const std::optional<PlyType> type = type_from_name(type_name);
-  if (!type) return failure("property type is " + quoted(type_name) + "; expected float, int, ...");
+  if (!type) return failure({"property type is ", quoted(type_name), "; expected float, int, ..."});
   property.type = *type;
   property.name = next_word(line, at);
-  if (property.name.empty()) return failure("property without a name");
+  if (property.name.empty()) return failure({"property without a name"});
   property.role = role_of(element, property);
   for (const PlyProperty& other : element.properties) {
     if (other.name == property.name) {
-      return failure("property " + quoted(property.name) + " stands twice");
+      return failure({"property ", quoted(property.name), " stands twice"});
     }
   }
   const bool coordinate = property.role >= PlyRole::x && property.role <= PlyRole::z;
@@ -182,21 +183,21 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
 }
 
 Status HeaderParser::check() const {
-  if (!has_format_) return failure("the header has no format line");
+  if (!has_format_) return failure({"the header has no format line"});
   const PlyElement* vertex = nullptr;
   for (const PlyElement& element : header_.elements) {
     if (element.properties.empty() && element.count > 0) {
-      return failure("element " + quoted(element.name) + " has no properties");
+      return failure({"element ", quoted(element.name), " has no properties"});
     }
     if (element.name == "vertex") vertex = &element;
   }
-  if (!vertex) return failure("the header has no element vertex");
+  if (!vertex) return failure({"the header has no element vertex"});
   for (const PlyRole role : {PlyRole::x, PlyRole::y, PlyRole::z}) {
     const bool found = std::any_of(vertex->properties.begin(), vertex->properties.end(),
                                    [role](const PlyProperty& p) { return p.role == role; });
     const char* names[] = {"x", "y", "z"};
     const int axis = static_cast<int>(role) - static_cast<int>(PlyRole::x);
-    if (!found) return failure(std::string("element vertex has no property ") + names[axis]);
+    if (!found) return failure({"element vertex has no property ", names[axis]});
   }
   return {};
 }

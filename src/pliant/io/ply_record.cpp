@@ -4,6 +4,7 @@
 
 #include "pliant/io/bytes.h"
 #include "pliant/io/lines.h"
+#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {
@@ -36,8 +37,8 @@ bool has_values(const PlyProperty& property) {
 }
 
 std::string wrong_number(const PlyProperty& property, std::string_view word) {
-  if (word.empty()) return "the line ends before " + quoted(property.name);
-  return property.name + " is " + quoted(word) + "; expected a finite decimal number";
+  if (word.empty()) return message({"the line ends before ", quoted(property.name)});
+  return message({property.name, " is ", quoted(word), "; expected a finite decimal number"});
 }
 
 /// Takes `count` words of a property from the line; reads them if the property has a role.
@@ -67,7 +68,7 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
       const double value =
           load_number(&input[static_cast<std::size_t>(size)], property.count_type, big_endian);
       if (value < 0) {
-        error = "list " + quoted(property.name) + " has a negative count";
+        error = message({"list ", quoted(property.name), " has a negative count"});
         return 0;
       }
       count = static_cast<std::uint64_t>(value);
@@ -117,8 +118,8 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
       const std::string_view word = next_word(line, at);
       const std::optional<std::uint64_t> length = read_count(word);
       if (!length) {
-        return "the count of list " + quoted(property.name) + " is " + quoted(word) +
-               "; expected a whole number";
+        return message({"the count of list ", quoted(property.name), " is ", quoted(word),
+                        "; expected a whole number"});
       }
       count = *length;
     }
@@ -128,8 +129,8 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
   }
   const std::string_view extra = next_word(line, at);
   if (extra.empty()) return {};
-  return "found " + quoted(extra) + " behind the " + std::to_string(element.properties.size()) +
-         " properties of element " + element.name;
+  return message({"found ", quoted(extra), " behind the ", element.properties.size(),
+                  " properties of element ", element.name});
 }
 
 }  // namespace pliant::io

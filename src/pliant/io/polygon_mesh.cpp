@@ -1,6 +1,6 @@
 #include "pliant/io/polygon_mesh.h"
 
-#include <string>
+#include "pliant/io/message.h"
 
 namespace pliant::io {
 
@@ -38,13 +38,13 @@ void PolygonCollector::texcoord(double u, double v) {
 }
 
 Status PolygonCollector::finish(std::uint64_t vertex_count, const char* unit, int first_id) const {
-  const auto check = [&](const Largest& largest, std::uint64_t count, const std::string& kind,
-                         const std::string& plural) -> Status {
+  const auto check = [&](const Largest& largest, std::uint64_t count, const char* kind,
+                         const char* plural) -> Status {
     if (!largest.any || largest.id < count) return {};
     return {ErrorCode::parse_error,
-            std::string(unit) + " " + std::to_string(largest.where) + ": face refers to " + kind +
-                " " + std::to_string(largest.id + std::uint64_t(first_id)) + "; the file has " +
-                std::to_string(count) + " " + plural + (first_id == 0 ? ", counted from 0" : "")};
+            message({unit, " ", largest.where, ": face refers to ", kind, " ",
+                     largest.id + std::uint64_t(first_id), "; the file has ", count, " ", plural,
+                     first_id == 0 ? ", counted from 0" : ""})};
   };
   const Status vertices = check(vertex_, vertex_count, "vertex", "vertices");
   if (!vertices.ok()) return vertices;

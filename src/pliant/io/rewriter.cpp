@@ -1,6 +1,6 @@
 #include "pliant/io/rewriter.h"
 
-#include <string>
+#include "pliant/io/message.h"
 
 namespace pliant::io {
 
@@ -52,7 +52,7 @@ Status Rewriter::scan(bool last) {
   if (last) return scanner_->finish();
   if (pending_.size() <= max_record) return {};
   return {ErrorCode::parse_error,
-          scanner_->place() + ": a record of more than " + std::to_string(max_record) + " bytes"};
+          message({scanner_->place(), ": a record of more than ", max_record, " bytes"})};
 }
 
 Status Rewriter::emit(std::span<const double> coordinates, Bytes& out) {

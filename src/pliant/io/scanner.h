@@ -12,6 +12,7 @@
 #include "pliant/io/bytes.h"
 #include "pliant/io/draft.h"
 #include "pliant/io/format.h"
+#include "pliant/io/message.h"
 #include "pliant/io/polygon_mesh.h"
 
 namespace pliant::io {
@@ -35,8 +36,8 @@ class Scanner {
   virtual std::string place() const = 0;
 
  protected:
-  Status failure(const std::string& reason) const {
-    return {ErrorCode::parse_error, place() + ": " + reason};
+  Status failure(Pieces reason) const {
+    return {ErrorCode::parse_error, message({place(), ": ", message(reason)})};
   }
   static Status require_vertices(std::uint64_t count) {
     if (count > 0) return {};

@@ -62,7 +62,7 @@ Result<std::size_t> TextStlScanner::scan(std::string_view input, bool last, Draf
     do {
       const std::size_t next = end < input.size() ? line_end(input, end, last) : npos;
       if (next == npos) {
-        if (last) return failure("the file ends inside a facet");
+        if (last) return failure({"the file ends inside a facet"});
         draft.rewind(mark);
         line_ = first_line;
         vertices_ = vertices_before;
@@ -91,8 +91,8 @@ Status TextStlScanner::scan_line(std::string_view line, Draft& draft) {
                                : keyword == "solid" || keyword == "endsolid";
   if (known || keyword.empty()) return {};
   return failure(
-      "found " + quoted(word) + "; expected " +
-      (in_facet_ ? "outer loop, vertex, endloop or endfacet" : "solid, facet or endsolid"));
+      {"found ", quoted(word), "; expected ",
+       (in_facet_ ? "outer loop, vertex, endloop or endfacet" : "solid, facet or endsolid")});
 }
 
 /// The old normal's numbers are not read: some writers put nan there.
@@ -100,11 +100,11 @@ Status TextStlScanner::scan_facet_line(std::string_view line, std::size_t at, Dr
   in_facet_ = true;
   corners_ = 0;
   const std::string_view normal = next_word(line, at);
-  if (lower(normal) != "normal") return failure("found " + quoted(normal) + "; expected normal");
+  if (lower(normal) != "normal") return failure({"found ", quoted(normal), "; expected normal"});
   std::size_t kept = 0;
   for (int component = 0; component < 3; ++component) {
     const std::string_view word = next_word(line, at);
-    if (word.empty()) return failure("expected 3 numbers of a normal");
+    if (word.empty()) return failure({"expected 3 numbers of a normal"});
     draft.keep(line.substr(kept, at - word.size() - kept));
     draft.facet_normal(component);
     kept = at;
@@ -124,7 +124,7 @@ Status TextStlScanner::scan_vertex(std::string_view line, std::size_t at, Draft&
 Status TextStlScanner::end_facet() {
   in_facet_ = false;
   if (corners_ != 3) {
-    return failure("facet has " + std::to_string(corners_) + " vertices; expected 3");
+    return failure({"facet has ", corners_, " vertices; expected 3"});
   }
   collect_facet(polygons_, vertices_, line_);
   return {};
@@ -136,13 +136,12 @@ class BinaryStlScanner final : public Scanner {
 
   Result<std::size_t> scan(std::string_view input, bool last, Draft& draft) override;
   Status finish() override { return facets_ < count_ ? ends_early() : require_vertices(facets_); }
-  std::string place() const override { return "byte " + std::to_string(offset_); }
+  std::string place() const override { return message({"byte ", offset_}); }
 
  private:
   Status scan_facet(std::string_view facet, Draft& draft);
   Status ends_early() const {
-    return failure("the file ends inside facet " + std::to_string(facets_ + 1) + " of " +
-                   std::to_string(count_));
+    return failure({"the file ends inside facet ", facets_ + 1, " of ", count_});
   }
 
   PolygonCollector* polygons_;
@@ -157,8 +156,8 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
   if (offset_ == 0) {
     if (input.size() < header_size) {
       if (!last) return std::size_t{0};
-      return failure("the file ends inside the header of a binary STL (" +
-                     std::to_string(input.size()) + " of 84 bytes)");
+      return failure(
+          {"the file ends inside the header of a binary STL (", input.size(), " of 84 bytes)"});
     }
     count_ = load<std::uint32_t>(&input[80], false);
     draft.keep(input.substr(0, header_size));
@@ -184,8 +183,7 @@ Status BinaryStlScanner::scan_facet(std::string_view facet, Draft& draft) {
   for (std::size_t i = 12; i < 48; i += 4) {
     const float value = load<float>(&facet[i], false);
     if (!std::isfinite(value)) {
-      return failure("vertex " + std::to_string((i - 12) / 12 + 1) + " of facet " +
-                     std::to_string(facets_ + 1) + " is not finite");
+      return failure({"vertex ", (i - 12) / 12 + 1, " of facet ", facets_ + 1, " is not finite"});
     }
     draft.coordinate(value);
   }
@@ -208,7 +206,7 @@ class StlScanner final : public Scanner {
     }
     return actual_->scan(input, last, draft);
   }
-  Status finish() override { return actual_ ? actual_->finish() : failure("the file is empty"); }
+  Status finish() override { return actual_ ? actual_->finish() : failure({"the file is empty"}); }
   std::string place() const override { return actual_ ? actual_->place() : "byte 0"; }
 
  private:

@@ -1,0 +1,37 @@
+// Messages put together from words and numbers in one call. Internal to io.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace pliant::io {
+
+/// A word or a number of a message.
+class Piece {
+ public:
+  Piece(const char* text) : text_(text) {}
+  Piece(const std::string& text) : text_(text) {}
+  Piece(std::string_view text) : text_(text) {}
+  Piece(double number) : kind_(Kind::real), real_(number) {}
+  Piece(std::integral auto number)
+      : kind_(Kind::whole), whole_(static_cast<std::int64_t>(number)) {}
+
+  void append_to(std::string& out) const;
+
+ private:
+  enum class Kind { text, whole, real };
+  Kind kind_ = Kind::text;
+  std::string_view text_;
+  std::int64_t whole_ = 0;
+  double real_ = 0.0;
+};
+
+using Pieces = std::initializer_list<Piece>;
+
+/// The pieces one behind the other. They refer to what they were made of: for use at once.
+std::string message(Pieces pieces);
+
+}  // namespace pliant::io
