@@ -71,6 +71,8 @@ Constrained constrained_points(const std::vector<Handle>& handles) {
 Influences rows_of(const Influences& influences, const std::vector<Index>& rows) {
   Influences some;
   some.k = influences.k;
+  some.indices.reserve(rows.size() * influences.k);
+  some.weights.reserve(rows.size() * influences.k);
   for (Index row : rows) {
     const auto from = static_cast<std::ptrdiff_t>(row) * influences.k;
     some.indices.insert(some.indices.end(), influences.indices.begin() + from,

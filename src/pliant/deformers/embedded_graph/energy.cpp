@@ -95,6 +95,7 @@ void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>&
   }
 
   influences_.clear();
+  influences_.reserve(influences.indices.size());
   constraint_start_.assign(1, 0);
   for (Index l = 0; l < constrained.cols(); ++l) {
     for (int s = 0; s < influences.k; ++s) {
@@ -109,10 +110,46 @@ void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>&
     constraint_start_.push_back(influences_.size());
   }
   targets_ = Points::Zero(3, constrained.cols());
+  con_ = targets_;
   reg_.resize(3, 2 * static_cast<Index>(edges_.size()));
-  con_.resize(3, constrained.cols());
   reg_along_.resizeLike(reg_);
-  con_along_.resizeLike(con_);
+  con_gradient_.setZero(3 * rows());
+  con_along_.setZero(3 * rows());
+  gather_constraint_blocks();
+}
+
+void GraphEnergy::gather_constraint_blocks() {
+  BlockMatrix sums;
+  sums.set_zero(4, free_nodes(), free_edges_);
+  std::vector<std::size_t> first_edge(free_nodes() + 1, free_edges_.size());
+  for (std::size_t e = free_edges_.size(); e-- > 0;) first_edge[free_edges_[e][0]] = e;
+  for (Index j = free_nodes(); j-- > 0;) first_edge[j] = std::min(first_edge[j], first_edge[j + 1]);
+  std::vector<bool> touched(free_nodes(), false), joined(free_edges_.size(), false);
+  for (std::size_t l = 0; l + 1 < constraint_start_.size(); ++l) {
+    for (std::size_t p = constraint_start_[l]; p < constraint_start_[l + 1]; ++p) {
+      const Influence& one = influences_[p];
+      touched[one.node] = true;
+      add_outer(sums.diagonal_block(one.node), one.coefficients, one.coefficients, 1.0);
+      for (std::size_t q = constraint_start_[l]; q < p; ++q) {
+        const Influence& two = influences_[q];
+        const Influence& low = one.node < two.node ? one : two;
+        const Influence& high = one.node < two.node ? two : one;
+        std::size_t e = first_edge[low.node];
+        while (free_edges_[e][1] != high.node) ++e;
+        joined[e] = true;
+        add_outer(sums.edge_block(e), high.coefficients, low.coefficients, 1.0);
+      }
+    }
+  }
+  constraint_blocks_.clear();
+  for (Index j = 0; j < free_nodes(); ++j) {
+    if (touched[j]) constraint_blocks_.push_back({j, j, Eigen::Matrix4d(sums.diagonal_block(j))});
+  }
+  for (std::size_t e = 0; e < free_edges_.size(); ++e) {
+    if (!joined[e]) continue;
+    constraint_blocks_.push_back(
+        {free_edges_[e][0], free_edges_[e][1], Eigen::Matrix4d(sums.edge_block(e))});
+  }
 }
 
 void GraphEnergy::set_targets(const Points& displacements) { targets_ = displacements; }
@@ -127,7 +164,7 @@ Eigen::Vector3d GraphEnergy::translation(const Vector& x, Index j) const {
   return {entry(x, 0, j)[3], entry(x, 1, j)[3], entry(x, 2, j)[3]};
 }
 
-void GraphEnergy::linear_residuals(const Vector& x, Points& reg, Points& con) const {
+void GraphEnergy::regularization_residuals(const Vector& x, Points& reg) const {
   // Eq. 7 in displacements: R_j (g_k - g_j) + g_j + t_j - g_k - t_k = U_j d + t_j - t_k.
   static constexpr double kAtRest[4] = {0, 0, 0, 0};
   for (int a = 0; a < 3; ++a) {
@@ -140,15 +177,37 @@ void GraphEnergy::linear_residuals(const Vector& x, Points& reg, Points& con) co
       reg(a, 2 * e) = j[0] * edge.d[0] + j[1] * edge.d[1] + j[2] * edge.d[2] + shift;
       reg(a, 2 * e + 1) = -(k[0] * edge.d[0] + k[1] * edge.d[1] + k[2] * edge.d[2]) - shift;
     }
-    // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
-    for (Index l = 0; l < con.cols(); ++l) {
-      double sum = 0.0;
-      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-        const double* n = part + 4 * influences_[i].node;
-        const Eigen::Vector4d& w = influences_[i].coefficients;
-        sum += w[0] * n[0] + w[1] * n[1] + w[2] * n[2] + w[3] * n[3];
-      }
-      con(a, l) = sum;
+  }
+}
+
+Eigen::Vector3d GraphEnergy::constraint_residual(const Vector& x, Index l) const {
+  // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
+  Eigen::Vector3d r = -targets_.col(l);
+  for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+    const double* w = influences_[i].coefficients.data();
+    for (int a = 0; a < 3; ++a) {
+      const double* n = entry(x, a, influences_[i].node);
+      r[a] += w[0] * n[0] + w[1] * n[1] + w[2] * n[2] + w[3] * n[3];
+    }
+  }
+  return r;
+}
+
+Points GraphEnergy::constraint_residuals(const Vector& x) const {
+  Points residuals(3, targets_.cols());
+  for (Index l = 0; l < residuals.cols(); ++l) residuals.col(l) = constraint_residual(x, l);
+  return residuals;
+}
+
+void GraphEnergy::apply_constraint_blocks(const Vector& d, Vector& product) const {
+  product.setZero();
+  for (const ConstraintBlock& b : constraint_blocks_) {
+    for (int a = 0; a < 3; ++a) {
+      using Part = Eigen::Map<const Eigen::Vector4d>;
+      Eigen::Map<Eigen::Vector4d>(entry(product, a, b.k)) += b.block * Part(entry(d, a, b.j));
+      if (b.k == b.j) continue;
+      Eigen::Map<Eigen::Vector4d>(entry(product, a, b.j)) +=
+          b.block.transpose() * Part(entry(d, a, b.k));
     }
   }
 }
@@ -166,15 +225,26 @@ double GraphEnergy::rotation_terms(const Vector& x) const {
 }
 
 void GraphEnergy::evaluate(const Vector& x) {
-  linear_residuals(x, reg_, con_);
-  con_ -= targets_;
+  regularization_residuals(x, reg_);
+  con_gradient_.setZero();
+  for (Index l = 0; l < con_.cols(); ++l) {
+    const Eigen::Vector3d r = constraint_residual(x, l);
+    con_.col(l) = r;
+    for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+      for (int a = 0; a < 3; ++a) {
+        double* n = entry(con_gradient_, a, influences_[i].node);
+        for (int c = 0; c < 4; ++c) n[c] += r[a] * influences_[i].coefficients[c];
+      }
+    }
+  }
   terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
   reg_ += alpha * reg_along_;
-  con_ += alpha * con_along_;
-  terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
+  con_gradient_ += alpha * con_along_;
+  const double constraint = terms_.constraint + alpha * (con_slope_ + alpha * con_curvature_);
+  terms_ = {rotation_terms(x), reg_.squaredNorm(), std::max(0.0, constraint)};
 }
 
 void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
@@ -190,7 +260,7 @@ void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
 }
 
 void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
-  gradient.setZero(3 * rows());
+  gradient = weights_.constraint * con_gradient_;
   for (int a = 0; a < 3; ++a) {
     double* part = gradient.data() + a * rows();
     for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -206,13 +276,6 @@ void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
         double* k = part + 4 * edge.k;
         for (int c = 0; c < 3; ++c) k[c] -= back * edge.d[c];
         k[3] += back - forth;
-      }
-    }
-    for (Index l = 0; l < con_.cols(); ++l) {
-      const double r = weights_.constraint * con_(a, l);
-      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-        double* n = part + 4 * influences_[i].node;
-        for (int c = 0; c < 4; ++c) n[c] += r * influences_[i].coefficients[c];
       }
     }
   }
@@ -233,14 +296,16 @@ void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
 }
 
 Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
-  linear_residuals(d, reg_along_, con_along_);
+  regularization_residuals(d, reg_along_);
+  apply_constraint_blocks(d, con_along_);
+  con_slope_ = 2.0 * d.dot(con_gradient_);
+  con_curvature_ = d.dot(con_along_);
   Quartic course;
   auto& c = course.c;
   c[0] = total();
-  c[1] = 2.0 * (weights_.regularization * reg_.cwiseProduct(reg_along_).sum() +
-                weights_.constraint * con_.cwiseProduct(con_along_).sum());
-  c[2] = weights_.regularization * reg_along_.squaredNorm() +
-         weights_.constraint * con_along_.squaredNorm();
+  c[1] = 2.0 * weights_.regularization * reg_.cwiseProduct(reg_along_).sum() +
+         weights_.constraint * con_slope_;
+  c[2] = weights_.regularization * reg_along_.squaredNorm() + weights_.constraint * con_curvature_;
   for (Index j = 0; j < free_nodes(); ++j) {
     const Eigen::Matrix3d u = displacement_gradient(x, j), step = displacement_gradient(d, j);
     const Conditions f0 = conditions(u), f2 = conditions_across(step);
@@ -278,22 +343,11 @@ void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
       add_outer(matrix.edge_block(free_edge_index_[e]), kk, shift, w);
     }
   }
-  for (std::size_t l = 0; l + 1 < constraint_start_.size(); ++l) {
-    for (std::size_t p = constraint_start_[l]; p < constraint_start_[l + 1]; ++p) {
-      const Influence& one = influences_[p];
-      add_outer(matrix.diagonal_block(one.node), one.coefficients, one.coefficients,
-                weights_.constraint);
-      for (std::size_t q = constraint_start_[l]; q < p; ++q) {
-        const Influence& two = influences_[q];
-        const auto [low, high] = std::minmax(one.node, two.node);
-        const auto found =
-            std::lower_bound(free_edges_.begin(), free_edges_.end(), Edge{low, high});
-        const bool one_is_high = one.node == high;
-        add_outer(matrix.edge_block(found - free_edges_.begin()),
-                  one_is_high ? one.coefficients : two.coefficients,
-                  one_is_high ? two.coefficients : one.coefficients, weights_.constraint);
-      }
-    }
+  for (const ConstraintBlock& b : constraint_blocks_) {
+    const auto edge = std::lower_bound(free_edges_.begin(), free_edges_.end(), Edge{b.j, b.k});
+    double* block =
+        b.j == b.k ? matrix.diagonal_block(b.j) : matrix.edge_block(edge - free_edges_.begin());
+    Eigen::Map<Eigen::Matrix4d>(block) += weights_.constraint * b.block;
   }
 }
 

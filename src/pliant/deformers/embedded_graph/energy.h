@@ -60,9 +60,10 @@ class GraphEnergy {
   const std::vector<Edge>& free_edges() const { return free_edges_; }
   const Weights& weights() const { return weights_; }
 
-  /// Moves to x: residuals and terms from scratch.
+  /// Moves to x: everything from scratch, exactly.
   void evaluate(const Vector& x);
-  /// Moves on along the direction last given to `along`.
+  /// Moves on along the direction last given to `along`; E_con is updated, to rounding of its
+  /// change.
   void advance(double alpha, const Vector& x);
   const Terms& terms() const { return terms_; }
   double total() const { return terms_.total(weights_); }
@@ -84,8 +85,10 @@ class GraphEnergy {
   /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry.
   void gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const;
 
-  /// Displaced positions minus targets of the constrained points at the current x, 3 x c.
-  const Points& constraint_residuals() const { return con_; }
+  /// Displaced positions minus targets of the constrained points, 3 x c.
+  Points constraint_residuals(const Vector& x) const;
+  /// The same as of the last `evaluate`.
+  const Points& evaluated_residuals() const { return con_; }
 
   // The four numbers of row a of free node j.
   double* entry(Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
@@ -107,7 +110,16 @@ class GraphEnergy {
     Eigen::Vector4d coefficients;
   };
 
-  void linear_residuals(const Vector& x, Points& reg, Points& con) const;
+  /// One 4 x 4 block of C'C; k >= j.
+  struct ConstraintBlock {
+    Index j, k;
+    Eigen::Matrix4d block;  ///< rows of k, columns of j
+  };
+
+  Eigen::Vector3d constraint_residual(const Vector& x, Index l) const;
+  void gather_constraint_blocks();
+  void regularization_residuals(const Vector& x, Points& reg) const;
+  void apply_constraint_blocks(const Vector& d, Vector& product) const;
   double rotation_term(const Vector& x, Index free_node) const;  ///< Rot(R_j), eq. 5
   double rotation_terms(const Vector& x) const;                  ///< eq. 6
 
@@ -120,8 +132,13 @@ class GraphEnergy {
   std::vector<Influence> influences_;
   std::vector<std::size_t> constraint_start_;
   Points targets_;
-  Points reg_, con_;              ///< residuals: two columns an edge; one a constraint
-  Points reg_along_, con_along_;  ///< their change along the last direction
+  Points con_;              ///< residuals of eq. 8 at the last evaluate
+  Points reg_, reg_along_;  ///< residuals of eq. 7, two columns an edge; their change along d
+  // E_con through C'C: its cost in a step does not depend on how many points a handle has.
+  std::vector<ConstraintBlock> constraint_blocks_;
+  Vector con_gradient_;  ///< C' (C x - targets)
+  Vector con_along_;     ///< C'C d of the last direction
+  double con_slope_ = 0.0, con_curvature_ = 0.0;
   Terms terms_;
 };
 

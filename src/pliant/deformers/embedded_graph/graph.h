@@ -29,8 +29,8 @@ struct DeformationGraph {
   std::vector<Edge> edges;   ///< nodes that influence a common point, j < k, sorted
   double length_unit = 1.0;  ///< mean edge length: the energies are taken in this unit
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of the scene, for accuracy only
-  std::vector<CutSides> node_sides;   ///< one list a cut
-  std::vector<CutSides> point_sides;  ///< of the points of the shape, one list a cut
+  std::vector<CutSides> node_sides;                  ///< one list a cut
+  std::vector<CutSides> point_sides;                 ///< of the points of the shape, one list a cut
 
   Index size() const { return static_cast<Index>(nodes.cols()); }
   /// Input coordinates -> the solver's: centred, in length units.

@@ -181,17 +181,20 @@ bool GraphSolver::keep_if_lower(double previous_total) {
 
 void GraphSolver::predict_rigid() {
   // A component that nothing holds follows the best rigid motion of its handles at no cost.
-  const Points now = constrained_now();
+  std::vector<std::vector<Index>> floating(components_);  // constraints of components that float
+  for (Index l = 0; l < constrained_.cols(); ++l) {
+    const Index c = constraint_component_[l];
+    if (c >= 0 && !anchored_[c]) floating[c].push_back(l);
+  }
+  if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); }))
+    return;
+  const Points now = constrained_now(), wanted = constrained_ + displacement_;
   previous_ = x_;
   const double before = energy_.total();
   bool moved = false;
   for (Index c = 0; c < components_; ++c) {
-    std::vector<Index> members;
-    for (Index l = 0; l < now.cols(); ++l) {
-      if (constraint_component_[l] == c) members.push_back(l);
-    }
-    if (anchored_[c] || members.empty()) continue;
-    const Points wanted = constrained_ + displacement_;
+    const std::vector<Index>& members = floating[c];
+    if (members.empty()) continue;
     const RigidMotion motion =
         fit_rigid_motion(now(Eigen::all, members), wanted(Eigen::all, members));
     moved = true;
@@ -389,12 +392,12 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
 bool GraphSolver::tighten() {
   // Method of multipliers: what is missing from a target is added to it. True while that helps.
   if (!options_.exact || displacement_.cols() == 0) return false;
-  const double violation = (energy_.constraint_residuals() + shift_).colwise().norm().maxCoeff();
+  const double violation = (energy_.constraint_residuals(x_) + shift_).colwise().norm().maxCoeff();
   const bool met = violation <= 1e-10 * extent_;
   const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
   if (met || stuck) return false;
   last_violation_ = violation;
-  shift_ = -energy_.constraint_residuals();
+  shift_ = -energy_.constraint_residuals(x_);
   energy_.set_targets(displacement_ + shift_);
   energy_.evaluate(x_);
   update_gradient();
@@ -403,7 +406,7 @@ bool GraphSolver::tighten() {
 
 Terms GraphSolver::terms() const {
   Terms terms = energy_.terms();
-  terms.constraint = (energy_.constraint_residuals() + shift_).squaredNorm();
+  if (options_.exact) terms.constraint = (energy_.constraint_residuals(x_) + shift_).squaredNorm();
   return terms;
 }
 

@@ -79,9 +79,9 @@ class GraphSolver {
   /// Step along direction_, given the energy's course and the slope with the barrier's part.
   double choose_step(const Quartic& course, double slope);
   bool tighten();
-  /// Scaled positions of the constrained points.
+  /// Scaled positions of the constrained points, where the energy was last evaluated.
   Points constrained_now() const {
-    return constrained_ + displacement_ + shift_ + energy_.constraint_residuals();
+    return constrained_ + displacement_ + shift_ + energy_.evaluated_residuals();
   }
 
   SolverOptions options_;
