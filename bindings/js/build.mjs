@@ -23,9 +23,9 @@ const entries = {
 
 /** Bytes. `file`: with all it imports; `raw`: as it is; `gzip`: on the wire. */
 const budget = [
-  { file: "pliant.wasm", raw: 250e3, gzip: 100e3 },
+  { file: "pliant.wasm", raw: 400e3, gzip: 165e3 },
   { file: "pliant.js", gzip: 20e3 },
-  { file: "inline.js", gzip: 125e3 },
+  { file: "inline.js", gzip: 190e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */

@@ -16,7 +16,8 @@ export function makeInit(beside: () => Promise<Binary>): Init {
   async function start(options: InitOptions): Promise<Pliant> {
     try {
       const module = await compile(options, beside);
-      return new Pliant(new Core(await instantiate(createModule, module), forget));
+      const raw = await instantiate(createModule, module);
+      return new Pliant(new Core(raw, forget));
     } catch (error) {
       forget();
       throw error;

@@ -44,21 +44,28 @@ export async function compile(options: InitOptions, beside: () => Promise<Binary
     const binary = options.wasmUrl ? fetchBinary(absolute(options.wasmUrl)) : (options.wasmBinary ?? beside());
     return await WebAssembly.compile(await binary);
   } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
-    throw new PliantError("invalid-option", `${source} cannot be used: ${reason}; expected the pliant.wasm of this version`, { cause: error });
+    throw unusable(source, error);
   }
 }
 
-/** Starts emscripten's glue on a compiled module: it loads nothing by itself. */
-export function instantiate<T>(factory: ModuleFactory<T>, module: WebAssembly.Module): Promise<T> {
-  return new Promise((resolve, reject) => {
-    const instantiateWasm = (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
-      WebAssembly.instantiate(module, imports).then(done).catch((error: Error) =>
-        reject(new PliantError("invalid-option", `the WASM does not fit: ${error.message}; expected the pliant.wasm of this version`)));
-      return {};
-    };
-    factory({ instantiateWasm }).then(resolve, reject);
-  });
+/** Starts emscripten's glue on a compiled module: it loads nothing by itself. Errors: invalid-option. */
+export async function instantiate<T extends { Scratch?: unknown }>(factory: ModuleFactory<T>, module: WebAssembly.Module): Promise<T> {
+  try {
+    return await new Promise((resolve, reject) => {
+      const instantiateWasm = (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
+        WebAssembly.instantiate(module, imports).then(done).catch(reject);
+        return {};
+      };
+      factory({ instantiateWasm }).then((raw) => (raw.Scratch ? resolve(raw) : reject(new Error("it lacks what is needed"))), reject);
+    });
+  } catch (error) {
+    throw unusable("the WASM module", error);
+  }
+}
+
+function unusable(source: string, error: unknown): PliantError {
+  const reason = error instanceof Error ? error.message : String(error);
+  return new PliantError("invalid-option", `${source} cannot be used: ${reason}; expected the pliant.wasm of this version`, { cause: error });
 }
 
 export function absolute(url: string | URL): URL {
