@@ -38,7 +38,7 @@ export class App {
     const session = await Session.start(await catalog[0]!.make(), {
       change: () => app?.changed(),
       frame: () => app?.framed(),
-      problem: (error) => app?.chrome.say(error.message),
+      problem: (error) => app?.problem(error),
     });
     app = new App(session);
     app.changed();
@@ -56,13 +56,12 @@ export class App {
     this.toolbar = new Toolbar(tools, () => this.toolChanged());
     this.input = new Input(this.stage, () => this.toolbar.current);
     this.readout = new Readout(session);
-    const problem = (error: Error) => this.chrome.say(error.message);
     this.panel = new Panel(session, {
-      openEntry: (id) => void this.openEntry(id).catch(problem),
-      openFile: (file) => void this.openFile(file).catch(problem),
+      openEntry: (id) => void this.openEntry(id),
+      openFile: (file) => void this.openFile(file),
       watchGraph: (on) => void this.watchGraph(on),
       wireframe: (on) => this.setWireframe(on),
-      problem,
+      problem: (error) => this.problem(error),
     });
     this.chrome = bindChrome({
       undo: () => void session.undo(),
@@ -70,7 +69,7 @@ export class App {
       reset: () => void session.reset(),
       home: () => this.viewport.goHome(),
       tool: (index) => this.toolbar.choose(index),
-      open: (file) => void this.openFile(file).catch(problem),
+      open: (file) => void this.openFile(file),
     });
     this.viewport.onDraw(() => this.draw());
     const narrow = matchMedia("(max-width: 720px)");
@@ -102,14 +101,29 @@ export class App {
     return pick(this.viewport, this.view, this.session, x, y);
   }
 
-  async openEntry(id: string): Promise<void> {
-    const entry = catalog.find((e) => e.id === id);
-    if (entry) await this.session.open(await entry.make());
+  openEntry(id: string): Promise<void> {
+    return this.open(() => catalog.find((entry) => entry.id === id)!.make());
   }
 
-  /** Errors: a sentence for the visitor. */
-  async openFile(file: File): Promise<void> {
-    if (await this.session.open(await loadFile(file))) this.chrome.say("");
+  openFile(file: File): Promise<void> {
+    return this.open(() => loadFile(file));
+  }
+
+  /** Shows a shape when it is there; what goes wrong is told. */
+  private async open(load: () => Promise<ShapeData>): Promise<void> {
+    this.chrome.busy(true);
+    try {
+      if (await this.session.open(await load())) this.chrome.say("");
+    } catch (error) {
+      this.problem(error as Error);
+    }
+    this.chrome.busy(false);
+  }
+
+  /** Says what went wrong; the controls show again how things stand. */
+  private problem(error: Error): void {
+    this.chrome.say(error.message);
+    this.panel.refresh(true);
   }
 
   private async watchGraph(on: boolean): Promise<void> {

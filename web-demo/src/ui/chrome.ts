@@ -17,6 +17,8 @@ export interface Chrome {
   hint(text: string): void;
   /** A notice that stays until dismissed; empty: none. */
   say(text: string): void;
+  /** Something is being made ready. */
+  busy(on: boolean): void;
 }
 
 export function bindChrome(actions: ChromeActions): Chrome {
@@ -42,6 +44,7 @@ export function bindChrome(actions: ChromeActions): Chrome {
       byId<HTMLButtonElement>("redo").disabled = !canRedo;
     },
     hint: (text) => (byId("hint").textContent = text),
+    busy: (on) => byId("stage").setAttribute("aria-busy", String(on)),
     say: (text) => {
       notice.hidden = text === "";
       notice.querySelector("span")!.textContent = text;

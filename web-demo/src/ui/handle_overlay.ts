@@ -24,6 +24,7 @@ export class HandleOverlay {
     this.ring = makeSvg("svg", { class: "ring", viewBox: "0 0 116 116", "aria-hidden": "true" },
       makeSvg("circle", { class: "track", cx: "58", cy: "58", r: "46" }), catcher, this.grip);
     this.root.append(this.ring, this.bubble);
+    this.root.addEventListener("contextmenu", (event) => event.preventDefault()); // a long press
     this.follow(catcher, () => this.stage.session.selected, () => "turn");
   }
 

@@ -54,11 +54,11 @@ export class Panel {
     box.addEventListener("change", () => set(box.checked));
   }
 
-  /** Matches the controls with the document. */
-  refresh(): void {
+  /** Matches the controls with the document; `force`: also where they were set but the document did not follow. */
+  refresh(force = false): void {
     const { doc } = this.session;
     const shown = [doc.shape, doc.method, doc.options];
-    if (shown.every((part, i) => part === this.shown[i])) return;
+    if (!force && shown.every((part, i) => part === this.shown[i])) return;
     this.shown = shown;
     const known = catalog.some((entry) => entry.id === doc.shape.id);
     for (const radio of this.shapes.querySelectorAll("input")) {

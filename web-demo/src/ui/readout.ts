@@ -2,6 +2,9 @@
 import type { Session } from "../edit/session.ts";
 import { byId, make } from "./dom.ts";
 
+/** Triangles that can be measured with every frame; larger shapes only at rest. */
+const quick = 200_000;
+
 const percent = (x: number | undefined) => (x === undefined ? "–" : `${(100 * x).toFixed(1)} %`);
 
 function figure(x: number | undefined): string {
@@ -27,12 +30,14 @@ export class Readout {
 
   refresh(): void {
     const { step, report } = this.session;
-    const { stretch, volume } = this.session.measures();
     this.set("energy", figure(step?.energy));
     this.set("iterations", step ? String(step.iteration) : "–");
     this.set("ms", step ? `${step.milliseconds.toFixed(1)} ms` : "–");
-    this.set("volume", percent(volume));
-    this.set("stretch", percent(stretch));
+    if (!step || step.converged || report.triangles < quick) {
+      const { stretch, volume } = this.session.measures();
+      this.set("volume", percent(volume));
+      this.set("stretch", percent(stretch));
+    }
     this.set("vertices", report.vertices.toLocaleString("en"));
   }
 

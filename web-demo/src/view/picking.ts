@@ -18,6 +18,7 @@ const raycaster = new Raycaster();
 export function pick(viewport: Viewport, view: ShapeView, session: Session, clientX: number, clientY: number): Hit | undefined {
   if (!view.object) return undefined;
   const { x, y } = viewport.toClip(clientX, clientY);
+  viewport.camera.updateMatrixWorld(); // it may have turned since it was last drawn
   raycaster.setFromCamera(new Vector2(x, y), viewport.camera);
   const distance = viewport.camera.position.distanceTo(viewport.controls.target);
   raycaster.params.Points.threshold = 0.008 * distance;

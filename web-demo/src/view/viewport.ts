@@ -140,6 +140,7 @@ export class Viewport {
 
   /** Pixels from the canvas's top left corner; `depth` beyond 1 lies behind the camera. */
   toScreen(point: Vector3): { x: number; y: number; depth: number } {
+    this.camera.updateMatrixWorld();
     const p = point.clone().project(this.camera);
     const { clientWidth, clientHeight } = this.canvas;
     return { x: ((p.x + 1) / 2) * clientWidth, y: ((1 - p.y) / 2) * clientHeight, depth: p.z };
