@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pliant/linalg/dense_kernels.h"
+
 namespace pliant::embedded {
 namespace {
 
@@ -185,9 +187,11 @@ Eigen::Vector3d GraphEnergy::constraint_residual(const Vector& x, Index l) const
   Eigen::Vector3d r = -targets_.col(l);
   for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
     const double* w = influences_[i].coefficients.data();
-    for (int a = 0; a < 3; ++a) {
-      const double* n = entry(x, a, influences_[i].node);
-      r[a] += w[0] * n[0] + w[1] * n[1] + w[2] * n[2] + w[3] * n[3];
+    const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
+    const double* n = x.data() + 4 * influences_[i].node;
+    for (int a = 0; a < 3; ++a, n += rows()) {
+      const dense::Vec2 sum = w01 * dense::load2(n) + w23 * dense::load2(n + 2);
+      r[a] += sum[0] + sum[1];
     }
   }
   return r;
@@ -231,9 +235,13 @@ void GraphEnergy::evaluate(const Vector& x) {
     const Eigen::Vector3d r = constraint_residual(x, l);
     con_.col(l) = r;
     for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-      for (int a = 0; a < 3; ++a) {
-        double* n = entry(con_gradient_, a, influences_[i].node);
-        for (int c = 0; c < 4; ++c) n[c] += r[a] * influences_[i].coefficients[c];
+      const double* w = influences_[i].coefficients.data();
+      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
+      double* n = con_gradient_.data() + 4 * influences_[i].node;
+      for (int a = 0; a < 3; ++a, n += rows()) {
+        const dense::Vec2 ra = dense::splat2(r[a]);
+        dense::store2(n, dense::load2(n) + ra * w01);
+        dense::store2(n + 2, dense::load2(n + 2) + ra * w23);
       }
     }
   }
@@ -245,6 +253,12 @@ void GraphEnergy::advance(double alpha, const Vector& x) {
   con_gradient_ += alpha * con_along_;
   const double constraint = terms_.constraint + alpha * (con_slope_ + alpha * con_curvature_);
   terms_ = {rotation_terms(x), reg_.squaredNorm(), std::max(0.0, constraint)};
+}
+
+void GraphEnergy::retreat(double alpha, const Terms& terms) {
+  reg_ -= alpha * reg_along_;
+  con_gradient_ -= alpha * con_along_;
+  terms_ = terms;
 }
 
 void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,

@@ -65,6 +65,8 @@ class GraphEnergy {
   /// Moves on along the direction last given to `along`; E_con is updated, to rounding of its
   /// change.
   void advance(double alpha, const Vector& x);
+  /// Takes the last `advance` back; `terms` are those from before it.
+  void retreat(double alpha, const Terms& terms);
   const Terms& terms() const { return terms_; }
   double total() const { return terms_.total(weights_); }
   /// Terms of every node of the graph: its rotation, and its directed edges' regularisation.

@@ -358,6 +358,7 @@ double GraphSolver::choose_step(const Quartic& course, double slope) {
 
 Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   if (energy_.free_nodes() == 0) return Outcome{false, true};
+  const Terms terms_before = energy_.terms();
   const double before = energy_.total();
   if (Status s = find_direction(); !s.ok()) return s;
   if (!(gradient_.dot(direction_) < 0.0) && !memory_.empty()) {
@@ -371,7 +372,7 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   energy_.advance(alpha, x_);
   if (!(alpha > 0.0) || !(energy_.total() < before)) {
     x_ = previous_;
-    energy_.evaluate(x_);
+    energy_.retreat(alpha, terms_before);
     if (memory_.empty()) return Outcome{false, !tighten()};
     memory_.clear();  // once more along the plain direction before giving up
     return step(tolerance);
