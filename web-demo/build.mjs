@@ -6,6 +6,7 @@ import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build } from "vite";
 import { buildShapes, shapesFile } from "./build-shapes.mjs";
+import { slimThree } from "./slim-three.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
@@ -61,7 +62,7 @@ export async function buildDemo({ dist = join(root, "dist"), out = join(dist, "d
     configFile: false,
     root: here,
     logLevel: "warn",
-    plugins: [packagePlugin(dist), shapesPlugin, inlinePlugin],
+    plugins: [packagePlugin(dist), shapesPlugin, slimThree, inlinePlugin],
     build: { write: false, target: "es2022", assetsInlineLimit: 1e8, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 2000, rolldownOptions: { output: { codeSplitting: false } } },
   });
   const files = result.output.map((file) => file.fileName);

@@ -61,7 +61,6 @@ export class Input {
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { viewport } = this.stage;
-    if (event.key !== "Shift" && !viewport.canvas.hasAttribute("data-keys")) this.useKeys(true);
     const step = event.shiftKey ? 0.4 : 0.1;
     switch (event.key) {
       case "ArrowLeft": viewport.orbit(-step, 0); break;
@@ -73,6 +72,7 @@ export class Input {
       case "Enter": case " ": this.act(); break;
       default: return;
     }
+    this.useKeys(true);
     event.preventDefault();
   }
 
