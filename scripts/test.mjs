@@ -2,7 +2,7 @@
 // The last line is `N passed, N failed`, over all suites. Nothing is skipped silently: a suite that
 // cannot be built, crashes, runs no test or skips one counts as failed.
 
-import { existsSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { build, buildTargets } from "./build.mjs";
 import { attempt, Failure, heading, main, root } from "./run.mjs";
@@ -41,9 +41,9 @@ async function runVitest(name) {
   const results = join(root, `build/results/${name}.json`);
   mkdirSync(join(root, "build/results"), { recursive: true });
   rmSync(results, { force: true });
-  const config = `tests/${name}/vitest.config.ts`;
   const { code, signal } = await attempt(process.execPath, ["node_modules/vitest/vitest.mjs", "run",
-    "--dir", `tests/${name}`, ...(existsSync(join(root, config)) ? ["--config", config] : []), "--reporter=default", "--reporter=json", `--outputFile.json=${results}`]);
+    "--config", `tests/${name}/vitest.config.ts`,
+    "--reporter=default", "--reporter=json", `--outputFile.json=${results}`]);
   let report;
   try {
     report = JSON.parse(readFileSync(results, "utf8"));
