@@ -1,6 +1,7 @@
 #include "pliant/geometry/canonical_order.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -109,5 +110,25 @@ class Sorter {
 }  // namespace
 
 std::vector<Index> canonical_order(const Shape& shape) { return Sorter(shape).sorted(); }
+
+Triangles canonical_triangles(const Shape& shape, const std::vector<Index>& order) {
+  std::vector<Index> rank(order.size());
+  for (Index r = 0; r < static_cast<Index>(order.size()); ++r) {
+    rank[order[r]] = r;
+  }
+  std::vector<std::array<Index, 3>> sorted(shape.triangles().cols());
+  for (Index t = 0; t < shape.triangles().cols(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      sorted[t][corner] = rank[shape.triangles()(corner, t)];
+    }
+    std::sort(sorted[t].begin(), sorted[t].end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  Triangles triangles(3, shape.triangles().cols());
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    triangles.col(t) << sorted[t][0], sorted[t][1], sorted[t][2];
+  }
+  return triangles;
+}
 
 }  // namespace pliant

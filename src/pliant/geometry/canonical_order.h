@@ -16,8 +16,13 @@ namespace pliant {
 /// order. Returns a permutation: order[rank] = point.
 std::vector<Index> canonical_order(const Shape& shape);
 
+/// The triangles over ranks instead of points: corners ascending, columns in lexicographic order,
+/// so that they too depend on the shape alone. `order`: canonical_order of the shape.
+Triangles canonical_triangles(const Shape& shape, const std::vector<Index>& order);
+
 /// `value` rounded to 30 significant bits (1e-9 relative): quantities that differ by rounding alone
-/// compare equal, so that a tie is decided by rank and not by the order of a summation.
+/// compare equal, so that a tie is decided by rank and not by the order of a summation. For values
+/// without a unit: in another unit they round elsewhere.
 inline double without_rounding_noise(double value) {
   // Eigen's bit_cast: the standard one is missing from our WASM toolchain.
   constexpr std::uint64_t dropped = 52 - 30;

@@ -1,7 +1,6 @@
 #include "pliant/geometry/sampling.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,6 +14,7 @@
 
 #include "pliant/geometry/adjacency.h"
 #include "pliant/geometry/canonical_order.h"
+#include "pliant/geometry/normals.h"
 #include "pliant/geometry/point_grid.h"
 
 namespace pliant {
@@ -47,52 +47,27 @@ struct Candidates {
   std::vector<double> shares;  ///< of each part, its share of the area; together 1
 };
 
-struct RankedTriangle {
-  std::array<Index, 3> ranks;  ///< of the corners, ascending
-  Index part;
-};
-
-/// The triangles in an order that follows from the ranks of the points alone.
-std::vector<RankedTriangle> ranked_triangles(const Shape& shape, const std::vector<Index>& order) {
-  std::vector<Index> rank(order.size());
-  for (Index r = 0; r < static_cast<Index>(order.size()); ++r) {
-    rank[order[r]] = r;
-  }
-  const Triangles& triangles = shape.triangles();
-  const Components parts = connected_components(
-      triangles, triangles_of_points(triangles, static_cast<Index>(order.size())));
-  std::vector<RankedTriangle> ranked(triangles.cols());
-  for (Index t = 0; t < triangles.cols(); ++t) {
-    std::array<Index, 3>& ranks = ranked[t].ranks;
-    for (int corner = 0; corner < 3; ++corner) {
-      ranks[corner] = rank[triangles(corner, t)];
-    }
-    std::sort(ranks.begin(), ranks.end());
-    ranked[t].part = parts.of_triangle[t];
-  }
-  std::sort(ranked.begin(), ranked.end(),
-            [](const RankedTriangle& a, const RankedTriangle& b) { return a.ranks < b.ranks; });
-  return ranked;
-}
-
 /// `count` points over the triangles, one in each of as many equal parts of the area; none where
 /// there is no area.
 Candidates surface_candidates(const Shape& shape, const std::vector<Index>& order, Index count,
                               Random& random) {
-  const std::vector<RankedTriangle> triangles = ranked_triangles(shape, order);
-  const auto corner = [&](const RankedTriangle& t, int i) {
-    return shape.points().col(order[t.ranks[i]]);
-  };
+  const Points points = shape.points()(Eigen::all, order);
+  const Triangles triangles = canonical_triangles(shape, order);
+  const std::vector<Index> part_of =
+      connected_components(triangles,
+                           triangles_of_points(triangles, static_cast<Index>(points.cols())))
+          .of_triangle;
+  const Points area_vectors = triangle_area_vectors(points, triangles);
+
   Candidates candidates;
-  std::vector<double> area_up_to(triangles.size());
+  std::vector<double> area_up_to(part_of.size());
   double total = 0.0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const RankedTriangle& t = triangles[i];
-    const double area = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm() / 2;
+  for (std::size_t t = 0; t < part_of.size(); ++t) {
+    const double area = area_vectors.col(static_cast<Index>(t)).norm() / 2;
     total += area;
-    area_up_to[i] = total;
-    candidates.shares.resize(std::max<std::size_t>(candidates.shares.size(), t.part + 1), 0.0);
-    candidates.shares[t.part] += area;
+    area_up_to[t] = total;
+    candidates.shares.resize(std::max<std::size_t>(candidates.shares.size(), part_of[t] + 1), 0.0);
+    candidates.shares[part_of[t]] += area;
   }
   if (total <= Shape::no_height * shape.diagonal() * shape.diagonal()) {
     return {};
@@ -102,11 +77,11 @@ Candidates surface_candidates(const Shape& shape, const std::vector<Index>& orde
   }
   candidates.points.resize(3, count);
   candidates.part.resize(count);
-  std::size_t i = 0;
+  std::size_t t = 0;
   for (Index sample = 0; sample < count; ++sample) {
     const double place = (sample + random.uniform()) / count * total;
-    while (i + 1 < triangles.size() && area_up_to[i] <= place) {
-      ++i;
+    while (t + 1 < part_of.size() && area_up_to[t] <= place) {
+      ++t;
     }
     double u = random.uniform();
     double v = random.uniform();
@@ -114,10 +89,10 @@ Candidates surface_candidates(const Shape& shape, const std::vector<Index>& orde
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const RankedTriangle& t = triangles[i];
+    const auto corner = [&](int i) { return points.col(triangles(i, static_cast<Index>(t))); };
     candidates.points.col(sample) =
-        corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0));
-    candidates.part[sample] = t.part;
+        corner(0) + u * (corner(1) - corner(0)) + v * (corner(2) - corner(0));
+    candidates.part[sample] = part_of[t];
   }
   return candidates;
 }
@@ -256,7 +231,8 @@ class Thinning {
         neighbour = j;
       }
     });
-    nearest_[i] = {without_rounding_noise(squared), neighbour};
+    // In units of the reach, so that distances round alike at every scale.
+    nearest_[i] = {without_rounding_noise(squared / (none_near_ * none_near_)), neighbour};
     closest_.emplace(-nearest_[i].first, i);
   }
 
@@ -280,7 +256,7 @@ class Thinning {
   PointGrid grid_;
   double none_near_;
   std::vector<char> gone_;
-  std::vector<std::pair<double, Index>> nearest_;  ///< squared distance, neighbour
+  std::vector<std::pair<double, Index>> nearest_;  ///< squared distance over reach, neighbour
   std::vector<Index> left_of_part_;
   std::priority_queue<std::pair<double, Index>>
       closest_;  ///< minus squared distance, the later first
