@@ -65,8 +65,16 @@ export function filled(place: Place, value: unknown, expected: string): List {
   return items.length > 0 ? items : place.reject(`is empty; expected ${expected}`);
 }
 
+/** Beyond this squares and their sums lose all meaning; shapes have the same bound. */
+const largest = 1e30;
+
+function isFinite(value: unknown): value is number {
+  return typeof value === "number" && Math.abs(value) <= largest;
+}
+
 export function finite(place: Place, value: unknown, expected = "a finite number"): number {
-  return typeof value === "number" && Number.isFinite(value) ? value : place.fail(value, expected);
+  if (isFinite(value)) return value;
+  return place.fail(value, Number.isFinite(value) ? `${expected} of at most ${largest}` : expected);
 }
 
 export function positive(place: Place, value: unknown): number {
@@ -110,7 +118,7 @@ export function coordinates(place: Place, value: unknown, size: number): ArrayLi
   const numbers = filled(place, value, expected) as ArrayLike<number>;
   if (numbers.length % size !== 0) place.fail(numbers, `${expected}: a length divisible by ${size}`);
   for (let i = 0; i < numbers.length; ++i) {
-    if (!Number.isFinite(numbers[i])) finite(place.item(i), numbers[i]);
+    if (!isFinite(numbers[i])) finite(place.item(i), numbers[i]);
   }
   return numbers;
 }

@@ -27,7 +27,7 @@ export type Select = (rest: Float64Array) => Uint8Array;
 
 type Reader = (place: Place, value: unknown, extent: Extent, depth: number) => Select;
 
-const maxDepth = 100;
+const maxDepth = 32;
 
 const readers: Record<string, Reader> = {
   vertices(place, value, { count }) {

@@ -61,7 +61,8 @@ function readMatrix(place: Place, value: unknown, dimension: number): number[] {
 /** The numbers a RawDeformer takes: scale, center, axis, angle in radians, about, translation. */
 export function packMotion(motion: Steps, center: number[]): number[] {
   const { scale, axis, degrees, about = center, translate } = motion;
-  return [scale, ...center, ...axis, (degrees * Math.PI) / 180, ...about, ...translate];
+  // Without a scale the centre plays no part: as the origin it costs no rounding either.
+  return [scale, ...(scale === 1 ? [0, 0, 0] : center), ...axis, (degrees * Math.PI) / 180, ...about, ...translate];
 }
 
 /** Where an affine matrix takes points, `dimension` numbers each. */

@@ -1,0 +1,30 @@
+// The installed package.
+
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { inject } from "vitest";
+
+export const consumer = inject("consumer");
+export const installed = join(consumer, "node_modules/pliant");
+
+export interface Entries {
+  pliant: typeof import("../../../bindings/js/index.js");
+  inline: typeof import("../../../bindings/js/inline.js");
+  worker: typeof import("../../../bindings/js/worker.js");
+  three: typeof import("../../../bindings/js/three.js");
+}
+
+export const entries = (await import(/* @vite-ignore */ pathToFileURL(join(consumer, "entries.mjs")).href)) as Entries;
+export const pliant = await entries.pliant.init();
+export const { PliantError } = entries.pliant;
+
+/** What an action throws or rejects with: code and message of a PliantError, anything else as it is. */
+export async function errorOf(action: () => unknown): Promise<{ code: string; message: string }> {
+  try {
+    await action();
+  } catch (error) {
+    if (error instanceof PliantError) return { code: error.code, message: error.message };
+    throw error;
+  }
+  return { code: "none", message: "nothing was thrown" };
+}
