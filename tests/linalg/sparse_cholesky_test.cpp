@@ -92,6 +92,22 @@ TEST_CASE("a reused factorisation gives what a fresh one gives, bit for bit") {
   CHECK(a == b);
 }
 
+TEST_CASE("an order taken over from blocks of another size serves as well") {
+  const BlockMatrix blocks = random_matrix(4, 50, 6, 3);
+  BlockMatrix scalars;
+  scalars.set_zero(1, blocks.nodes, blocks.edges);
+  scalars.diagonal.assign(50, 9.0);
+  scalars.off_diagonal.assign(scalars.edges.size(), -0.7);
+  SparseCholesky of_blocks, of_scalars;
+  REQUIRE(of_blocks.analyze(blocks).ok());
+  REQUIRE(of_scalars.analyze_like(of_blocks, scalars).ok());
+  REQUIRE(of_scalars.factorize(scalars).ok());
+  const Eigen::VectorXd b = test::Random(2).vector(50);
+  Eigen::VectorXd x = b;
+  of_scalars.solve(x.data(), 1);
+  CHECK((dense(scalars) * x - b).norm() < 1e-13 * b.norm());
+}
+
 TEST_CASE("a matrix that is not positive definite is refused, and the next one is factorised") {
   BlockMatrix matrix = random_matrix(3, 20, 4, 2);
   SparseCholesky cholesky;

@@ -251,6 +251,19 @@ Status SparseCholesky::analyze(const BlockMatrix& matrix) {
   const Adjacency adjacency = adjacency_in_order(matrix, position_);
   const std::vector<Index> parent = elimination_tree(adjacency);
   find_supernodes(column_structure(adjacency, parent), parent);
+  return prepare(matrix);
+}
+
+Status SparseCholesky::analyze_like(const SparseCholesky& other, const BlockMatrix& matrix) {
+  assert(matrix.nodes == other.nodes_);
+  block_ = matrix.block;
+  nodes_ = matrix.nodes;
+  position_ = other.position_;
+  supernodes_ = other.supernodes_;
+  return prepare(matrix);
+}
+
+Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   link_supernodes();
   const std::size_t stack = stack_size();
   if ((factor_size_ + stack) * sizeof(double) > max_bytes) {

@@ -19,6 +19,10 @@ class SparseCholesky {
   /// Errors: too_large (the factor would take more than `max_bytes`); the object is then unusable.
   Status analyze(const BlockMatrix& matrix);
 
+  /// The same for a matrix over the same edges as one already analysed, with blocks of any size:
+  /// takes over its order.
+  Status analyze_like(const SparseCholesky& other, const BlockMatrix& matrix);
+
   /// L L' = matrix, which must have the analysed pattern. No allocation.
   /// Errors: not_solvable (not positive definite).
   Status factorize(const BlockMatrix& matrix);
@@ -51,6 +55,7 @@ class SparseCholesky {
     bool transposed;
   };
 
+  Status prepare(const BlockMatrix& matrix);
   void order(const BlockMatrix& matrix);
   void find_supernodes(const std::vector<std::vector<Index>>& structure,
                        const std::vector<Index>& parent);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kDamping = 1e-6;
 /// What E_rot adds to the metric on the entries of R, times w_rot: between its curvature for a turn
 /// (none) and for a stretch (4).
-constexpr double kRotationMetric = 1.5;
+constexpr double kRotationMetric = 2.0;
 /// In exact mode the constraints are stiffer by this factor, so that the multipliers settle at
 /// once.
 constexpr double kExactStiffness = 100.0;
@@ -145,7 +145,7 @@ Status GraphSolver::factorize_metric() {
   if (newton) energy_.gauss_newton_matrix(x_, constant_, newton_);
   SparseCholesky& factor = newton ? newton_factor_ : metric_factor_;
   if (Status s = factor.analyze(newton ? newton_ : metric); !s.ok()) return s;
-  if (Status s = translation_factor_.analyze(translation_); !s.ok()) return s;
+  if (Status s = translation_factor_.analyze_like(factor, translation_); !s.ok()) return s;
   ++analyses_;
   if (Status s = translation_factor_.factorize(translation_); !s.ok()) return s;
   if (newton) return {};
