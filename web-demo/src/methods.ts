@@ -20,7 +20,7 @@ export const methods: readonly Method[] = [
     help: "A coarse graph of rotating nodes carries the shape (Sumner, Schmid and Pauly 2007).",
     options: [
       { key: "nodeCount", label: "Nodes", help: "How many nodes carry the shape: more follow finer bends.", min: 20, max: 800, step: 10, value: 250 },
-      { key: "neighbours", label: "Nodes a point", help: "How many nodes carry each point: more blend more softly.", min: 2, max: 10, step: 1, value: 4 },
+      { key: "neighbours", label: "Blend", help: "How many nodes carry each point: more blend more softly.", min: 2, max: 10, step: 1, value: 4 },
       { key: "regularizationWeight", label: "Smoothness", help: "How much neighbouring nodes agree.", min: 1, max: 50, step: 1, value: 10 },
       { key: "rotationWeight", label: "Rigidity", help: "How much each node keeps to a rotation.", min: 0.1, max: 10, step: 0.1, value: 1 },
       { key: "exactHandles", label: "Exact handles", help: "Handles reach their targets exactly, not only nearly.", value: false },

@@ -1,6 +1,6 @@
 // The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshStandardMaterial, Points,
+  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshPhongMaterial, Points,
   PointsMaterial, SRGBColorSpace, Texture,
 } from "three";
 import type { Doc } from "../edit/document.ts";
@@ -22,7 +22,6 @@ const linear = Float32Array.from({ length: 256 }, (_, c) => {
 
 export class ShapeView {
   readonly group = new Group();
-  private shape: ShapeData | undefined;
   private geometry = new BufferGeometry();
   /** The regions the colours show: fixed, then of each handle. */
   private painted: Iterable<number>[] = [];
@@ -31,7 +30,6 @@ export class ShapeView {
   /** Takes a shape on; its geometry from before is freed. `solid`: only its outside is ever seen. */
   show(shape: ShapeData, solid: boolean): void {
     this.clear();
-    this.shape = shape;
     this.painted = [];
     this.geometry = new BufferGeometry();
     const count = vertexCount(shape);
@@ -48,10 +46,10 @@ export class ShapeView {
   private surface(shape: ShapeData, solid: boolean): Mesh {
     this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
     const side = solid ? FrontSide : DoubleSide;
-    const material = tinted(new MeshStandardMaterial({ vertexColors: !shape.picture, roughness: 0.62, metalness: 0, side }));
+    const material = tinted(new MeshPhongMaterial({ vertexColors: !shape.picture, specular: 0x1c1c1c, shininess: 24, side }));
     if (shape.picture) {
       material.map = pictureTexture(shape.picture.image);
-      material.roughness = 0.9;
+      material.specular.set(0);
       material.alphaTest = 0.4;
     }
     const mesh = new Mesh(this.geometry, material);
@@ -72,7 +70,7 @@ export class ShapeView {
     if (!this.object) return;
     this.group.remove(this.object);
     this.geometry.dispose();
-    const material = this.object.material as MeshStandardMaterial | PointsMaterial;
+    const material = this.object.material as MeshPhongMaterial | PointsMaterial;
     material.map?.dispose();
     material.dispose();
   }
@@ -104,7 +102,7 @@ export class ShapeView {
   }
 
   setWireframe(on: boolean): void {
-    if (this.object instanceof Mesh) (this.object.material as MeshStandardMaterial).wireframe = on;
+    if (this.object instanceof Mesh) (this.object.material as MeshPhongMaterial).wireframe = on;
   }
 
   /** Lets what lies inside shine through. */
@@ -115,10 +113,6 @@ export class ShapeView {
     material.opacity = on ? 0.45 : 1;
     material.depthWrite = !on;
     material.needsUpdate = true;
-  }
-
-  get isPoints(): boolean {
-    return this.shape !== undefined && this.shape.triangles.length === 0;
   }
 }
 

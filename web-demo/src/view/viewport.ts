@@ -133,7 +133,7 @@ export class Viewport {
     Object.assign(shadow.camera, { left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: 0.1 * radius, far: 9 * radius });
     shadow.camera.updateProjectionMatrix();
     shadow.bias = -0.0005;
-    shadow.normalBias = 0.015 * radius;
+    shadow.normalBias = 0.004 * radius;
   }
 
   // -- Between the scene and the screen -----------------------------------------------------------
