@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" preserve="true" />
 // What every object of the package stands on: the started module, staging memory, and objects in
 // WASM memory that know when they are gone.
 

@@ -5,14 +5,17 @@ import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute } from
 import { Place } from "./check.js";
 import { NormalGroups } from "./normals.js";
 import type { ShapeInput } from "./shape.js";
+import { snapped } from "./weld.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
+/** Vertices closer than this part of the size are one: generated geometries close their seams only so well. */
+const seam = 1e-6;
+
 /** The shape of a geometry, indexed or not, for `pliant.shape`. `points`: leave out the triangles. Errors: invalid-shape. */
 export function shapeOf(geometry: BufferGeometry, { points = false } = {}): ShapeInput & { positions: Float32Array } {
-  const attribute = positionOf(geometry);
-  const positions = read(attribute);
-  return points ? { positions } : { positions, triangles: trianglesOf(geometry, attribute.count) };
+  const positions = restOf(geometry);
+  return points ? { positions } : { positions, triangles: trianglesOf(geometry, positions.length / 3) };
 }
 
 /** Keeps a geometry up to date with a deformer over its shape. */
@@ -25,10 +28,9 @@ export class GeometryBinding {
   /** Takes the geometry as it is now for the shape at rest. Normals are updated where it has them. */
   constructor(geometry: BufferGeometry) {
     this.geometry = geometry;
-    const attribute = positionOf(geometry);
-    this.#positions = read(attribute);
+    this.#positions = restOf(geometry);
     const normal = geometry.getAttribute("normal") as Attribute | undefined;
-    const triangles = trianglesOf(geometry, attribute.count);
+    const triangles = trianglesOf(geometry, this.#positions.length / 3);
     if (!normal || triangles.length === 0) return;
     this.#normals = read(normal);
     this.#groups = new NormalGroups(this.#positions, this.#normals, triangles);
@@ -59,6 +61,15 @@ function positionOf(geometry: BufferGeometry): Attribute {
   if (!geometry?.isBufferGeometry) place.fail(geometry, "a BufferGeometry");
   const position = geometry.getAttribute("position") as Attribute | undefined;
   return position?.itemSize === 3 ? position : place.reject("has no position attribute of three numbers a vertex; expected one");
+}
+
+function restOf(geometry: BufferGeometry): Float32Array {
+  const positions = read(positionOf(geometry));
+  const size = [0, 1, 2].map((axis) => {
+    const along = positions.filter((_, i) => i % 3 === axis);
+    return along.reduce((a, b) => Math.max(a, b), -Infinity) - along.reduce((a, b) => Math.min(a, b), Infinity);
+  });
+  return snapped(positions, seam * Math.hypot(...size));
 }
 
 /** Without an index, every three vertices are a triangle. */

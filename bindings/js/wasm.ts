@@ -81,11 +81,12 @@ export async function fetchBinary(url: URL): Promise<Binary> {
   return response.arrayBuffer();
 }
 
-/** A built-in of Node, or undefined elsewhere: no import that a bundler for the browser would follow. */
+/** A built-in of Node, or undefined elsewhere: no import that a bundler for the browser would follow. @internal */
 export function nodeModule<Name extends keyof NodeModules>(name: Name): NodeModules[Name] | undefined {
   return globalThis.process?.getBuiltinModule?.(name) as NodeModules[Name] | undefined;
 }
 
+/** @internal */
 interface NodeModules {
   "node:fs": typeof import("node:fs");
   "node:worker_threads": typeof import("node:worker_threads");

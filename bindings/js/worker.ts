@@ -59,10 +59,10 @@ async function launch(inline: boolean): Promise<WorkerPort> {
   const threads = nodeModule("node:worker_threads");
   if (inline) {
     const { default: script } = await import("#worker-script");
-    if (threads) return nodePort(new threads.Worker(script, { eval: true }));
+    if (threads) return nodePort(new threads.Worker(script, { eval: true, execArgv: [] }));
     return webPort(new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" }))));
   }
   // Not written as below, which a bundler for the browser would follow.
-  if (threads) return nodePort(new threads.Worker(new URL(import.meta.url.replace(/[^/]*$/, "worker-host.js"))));
+  if (threads) return nodePort(new threads.Worker(new URL(import.meta.url.replace(/[^/]*$/, "worker-host.js")), { execArgv: [] }));
   return webPort(new Worker(new URL("./worker-host.js", import.meta.url), { type: "module" }));
 }

@@ -23,6 +23,7 @@ export function webPort(worker: Worker): WorkerPort {
   };
 }
 
+/** @internal */
 export function nodePort(worker: import("node:worker_threads").Worker): WorkerPort {
   return {
     post: (message, transfer) => worker.postMessage(message, transfer),
