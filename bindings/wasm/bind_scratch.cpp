@@ -1,6 +1,7 @@
 // What both modules share: the Scratch and the RawStatus.
 #include <emscripten/bind.h>
 
+#include "pliant/io/memory.h"
 #include "scratch.h"
 #include "status_value.h"
 
@@ -8,15 +9,11 @@ namespace pliant::bindings {
 
 namespace {
 
-/// A vector that cannot grow ends the program, so memory is asked for first.
 template <class T>
 emscripten::val resized(std::vector<T>& slot, std::uint32_t length) {
   if (length > slot.capacity()) {
     slot = {};
-    const std::uint64_t size = std::uint64_t{length} * sizeof(T);
-    void* memory = size < SIZE_MAX / 2 ? std::malloc(static_cast<std::size_t>(size)) : nullptr;
-    if (!memory) return view_of(slot);
-    std::free(memory);
+    if (!io::memory_suffices(std::uint64_t{length} * sizeof(T))) return view_of(slot);
   }
   slot.resize(length);
   return view_of(slot);

@@ -37,9 +37,11 @@ class Mutator {
       case 3:
         file.insert(at, words[below(std::size(words))]);
         break;
-      case 4:
-        file.insert(at, file.substr(below(file.size()), below(40)));
+      case 4: {
+        const std::size_t from = below(file.size());  // arguments have no order: one draw a line
+        file.insert(at, file.substr(from, below(40)));
         break;
+      }
       case 5:
         file.resize(at);
         break;

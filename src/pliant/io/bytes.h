@@ -28,7 +28,9 @@ static_assert(std::endian::native == std::endian::little, "binary numbers are sw
 template <class T>
 T load(const char* at, bool big_endian) {
   char raw[sizeof(T)];
-  for (std::size_t i = 0; i < sizeof(T); ++i) raw[i] = at[big_endian ? sizeof(T) - 1 - i : i];
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    raw[i] = at[big_endian ? sizeof(T) - 1 - i : i];
+  }
   T value;
   std::memcpy(&value, raw, sizeof(T));
   return value;
@@ -39,7 +41,9 @@ void store(Bytes& out, T value, bool big_endian) {
   std::uint8_t raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   if (big_endian) {
-    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(raw[i], raw[sizeof(T) - 1 - i]);
+    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) {
+      std::swap(raw[i], raw[sizeof(T) - 1 - i]);
+    }
   }
   out.insert(out.end(), raw, raw + sizeof(T));
 }

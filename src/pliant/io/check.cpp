@@ -8,7 +8,9 @@ namespace pliant::io {
 
 Status check_finite(std::span<const double> values, const char* name) {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i])) continue;
+    if (std::isfinite(values[i])) {
+      continue;
+    }
     const char* value = std::isnan(values[i]) ? "NaN" : values[i] > 0 ? "Infinity" : "-Infinity";
     return {ErrorCode::invalid_shape,
             message({name, "[", i, "] is ", value, "; expected a finite number"})};

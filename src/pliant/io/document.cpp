@@ -1,11 +1,11 @@
 #include "pliant/io/document.h"
 
-#include <cstdlib>
 #include <string>
 
 #include "pliant/geometry/shape.h"
 #include "pliant/io/check.h"
 #include "pliant/io/draft.h"
+#include "pliant/io/memory.h"
 #include "pliant/io/message.h"
 #include "pliant/io/obj.h"
 #include "pliant/io/off.h"
@@ -20,32 +20,42 @@ namespace {
 
 constexpr std::size_t piece_size = 1 << 20;
 constexpr std::size_t max_vertices = Shape::max_vertices;
-constexpr std::size_t longest_number = 24;  // -1.2345678901234567e-308
 
 Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
 Status too_large(Pieces reason) { return {ErrorCode::too_large, message(reason)}; }
 
-/// Without exceptions a vector that cannot grow ends the program, so the memory for the output of a
-/// large file is asked for first.
 Status reserve(Bytes& out, std::uint64_t size) {
-  void* memory = size < SIZE_MAX / 2 ? std::malloc(static_cast<std::size_t>(size)) : nullptr;
-  if (!memory) {
+  if (!memory_suffices(size)) {
     return too_large({"the new file needs up to ", size, " bytes; that much memory is not left"});
   }
-  std::free(memory);
   out.reserve(static_cast<std::size_t>(size));
   return {};
 }
 
-/// No writer needs more bytes than this.
-std::uint64_t size_bound(const PolygonMesh& mesh) {
+/// The writer of the format needs no more bytes than this.
+std::uint64_t size_bound(FileFormat format, const PolygonMesh& mesh, std::size_t triangle_ids) {
   constexpr std::uint64_t header = 512;
-  constexpr std::uint64_t number = longest_number + 3;  // with a blank and a share of the keyword
-  constexpr std::uint64_t corner = 25;                  // two ids, or an id and two doubles
-  constexpr std::uint64_t triangle = 50;                // of binary STL; at most one a corner
-  return header + number * (mesh.positions.size() + mesh.texcoords.size()) +
-         (corner + triangle) * mesh.face_vertices.size();
+  constexpr std::uint64_t number = Draft::longest_text + 3;  // a blank, a share of keyword and end
+  constexpr std::uint64_t id = 9;                            // with a blank; no id has more digits
+  const std::uint64_t numbers = mesh.positions.size();
+  const std::uint64_t faces = mesh.face_count();
+  const std::uint64_t corners = mesh.face_vertices.size();
+  const std::uint64_t textured = mesh.corner_texcoords.size();
+  switch (format) {
+    case FileFormat::obj:
+      return header + number * (numbers + mesh.texcoords.size()) + id * (corners + textured) +
+             2 * faces;
+    case FileFormat::ply:
+      return header + 8 * numbers + 4 * corners + 16 * textured + 8 * faces;
+    case FileFormat::off:
+      return header + number * numbers + id * corners + 12 * faces;
+    case FileFormat::stl:
+      return header + 50 * std::uint64_t{triangle_ids / 3};
+    case FileFormat::xyz:
+      return header + number * numbers;
+  }
+  return 0;
 }
 
 Status check_positions(std::span<const double> positions) {
@@ -101,17 +111,22 @@ Status Document::read(FileFormat format, Bytes bytes) {
   for (std::size_t at = 0; at < text.size();) {
     draft.clear();
     const Result<std::size_t> taken = scanner->scan(text.substr(at), true, draft);
-    if (!taken.ok()) return taken.status();
+    if (!taken.ok()) {
+      return taken.status();
+    }
     at += *taken;
     positions.insert(positions.end(), draft.points().begin(), draft.points().end());
     if (positions.size() / 3 > max_vertices || polygons.too_large()) {
       return too_large({scanner->place(), ": more than ", max_vertices, " vertices, ",
-                        PolygonCollector::max_corners, " corners of faces or ",
+                        PolygonCollector::max_corners, " corners of faces (",
+                        PolygonCollector::max_textured_corners, " with texture coordinates) or ",
                         PolygonCollector::max_texcoords, " texture coordinates"});
     }
   }
-  const Status status = scanner->finish();
-  if (!status.ok()) return status;
+  Status status = scanner->finish();
+  if (!status.ok()) {
+    return status;
+  }
   mesh_ = polygons.take();
   mesh_.positions = std::move(positions);
   triangles_ = triangulate(mesh_);
@@ -121,12 +136,16 @@ Status Document::read(FileFormat format, Bytes bytes) {
 }
 
 Status Document::assign(std::span<const double> positions, std::span<const std::int32_t> polygons) {
-  const Status checked = check_positions(positions);
-  if (!checked.ok()) return checked;
+  Status checked = check_positions(positions);
+  if (!checked.ok()) {
+    return checked;
+  }
   PolygonMesh mesh;
   mesh.positions.assign(positions.begin(), positions.end());
-  const Status taken = take_polygons(polygons, mesh);
-  if (!taken.ok()) return taken;
+  Status taken = take_polygons(polygons, mesh);
+  if (!taken.ok()) {
+    return taken;
+  }
   mesh_ = std::move(mesh);
   triangles_ = triangulate(mesh_);
   source_ = Bytes();
@@ -139,8 +158,10 @@ Status Document::assign_texcoords(std::span<const double> texcoords) {
     return invalid({"texture coordinates has ", texcoords.size(),
                     " numbers; expected 2 for each of ", corners, " corners"});
   }
-  const Status finite = check_finite(texcoords, "texture coordinates");
-  if (!finite.ok()) return finite;
+  Status finite = check_finite(texcoords, "texture coordinates");
+  if (!finite.ok()) {
+    return finite;
+  }
   mesh_.texcoords.assign(texcoords.begin(), texcoords.end());
   mesh_.corner_texcoords.resize(corners);
   for (std::size_t c = 0; c < corners; ++c) {
@@ -150,23 +171,26 @@ Status Document::assign_texcoords(std::span<const double> texcoords) {
 }
 
 Result<Bytes> Document::write(FileFormat format, std::span<const double> positions) const {
-  if (mesh_.positions.empty()) return invalid({"the document is empty; read or assign one first"});
-  const Status checked = check_positions(positions);
-  if (!checked.ok()) return checked;
+  if (mesh_.positions.empty()) {
+    return invalid({"the document is empty; read or assign one first"});
+  }
+  Status checked = check_positions(positions);
+  if (!checked.ok()) {
+    return checked;
+  }
   if (positions.size() != mesh_.positions.size()) {
     return invalid({"positions has ", positions.size() / 3, " vertices; the document has ",
                     mesh_.vertex_count()});
   }
-  if (format == format_ && !source_.empty()) return rewrite(positions);
+  if (format == format_ && !source_.empty()) {
+    return rewrite(positions);
+  }
   return convert(format, positions);
 }
 
 /// The Rewriter's way, over bytes that are all here: the scanner stops where the draft is full.
 Result<Bytes> Document::rewrite(std::span<const double> positions) const {
   Bytes out;
-  const Status reserved =
-      reserve(out, std::uint64_t{source_.size()} + longest_number * positions.size());
-  if (!reserved.ok()) return reserved;
   const std::unique_ptr<Scanner> scanner = make_scanner(format_, nullptr);
   const std::string_view text = text_of(source_);
   Draft draft(piece_size);
@@ -174,11 +198,22 @@ Result<Bytes> Document::rewrite(std::span<const double> positions) const {
   for (std::size_t at = 0; at < text.size();) {
     draft.clear();
     const Result<std::size_t> taken = scanner->scan(text.substr(at), true, draft);
-    if (!taken.ok()) return taken.status();
+    if (!taken.ok()) {
+      return taken.status();
+    }
     at += *taken;
+    if (out.capacity() == 0) {  // the first piece has shown how numbers are written
+      Status reserved =
+          reserve(out, std::uint64_t{source_.size()} + draft.longest_number() * positions.size());
+      if (!reserved.ok()) {
+        return reserved;
+      }
+    }
     const std::size_t found = draft.points().size();
-    const Status status = draft.emit(positions.subspan(done, found), out);
-    if (!status.ok()) return status;
+    Status status = draft.emit(positions.subspan(done, found), out);
+    if (!status.ok()) {
+      return status;
+    }
     done += found;
   }
   return out;
@@ -186,8 +221,10 @@ Result<Bytes> Document::rewrite(std::span<const double> positions) const {
 
 Result<Bytes> Document::convert(FileFormat format, std::span<const double> positions) const {
   Bytes out;
-  const Status reserved = reserve(out, size_bound(mesh_));
-  if (!reserved.ok()) return reserved;
+  Status reserved = reserve(out, size_bound(format, mesh_, triangles_.size()));
+  if (!reserved.ok()) {
+    return reserved;
+  }
   Status status;
   switch (format) {
     case FileFormat::obj:
@@ -206,7 +243,9 @@ Result<Bytes> Document::convert(FileFormat format, std::span<const double> posit
       write_xyz(positions, out);
       break;
   }
-  if (!status.ok()) return status;
+  if (!status.ok()) {
+    return status;
+  }
   return out;
 }
 

@@ -20,16 +20,35 @@ std::array<double, 3> unit_normal(const double* corners) {
     size = std::max(size, std::abs(edges[i]));
   }
   // Dividing by the largest component keeps the products below within range.
-  if (size == 0.0 || !std::isfinite(size)) return {};
-  for (double& edge : edges) edge /= size;
+  if (size == 0.0 || !std::isfinite(size)) {
+    return {};
+  }
+  for (double& edge : edges) {
+    edge /= size;
+  }
   const auto [ax, ay, az, bx, by, bz] = edges;
   const std::array<double, 3> cross{ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx};
   const double length = std::hypot(cross[0], cross[1], cross[2]);
-  if (length == 0.0) return {};
+  if (length == 0.0) {
+    return {};
+  }
   return {cross[0] / length, cross[1] / length, cross[2] / length};
 }
 
 }  // namespace
+
+std::size_t Draft::longest_number() const {
+  switch (style_) {
+    case NumberStyle::text:
+      return longest_text;
+    case NumberStyle::double_little:
+    case NumberStyle::double_big:
+      return sizeof(double);
+    case NumberStyle::float_little:
+      return sizeof(float);
+  }
+  return longest_text;
+}
 
 void Draft::clear() { rewind({0, 0, 0}); }
 
@@ -79,8 +98,10 @@ Status Draft::emit(std::span<const double> coordinates, Bytes& out) const {
     return {ErrorCode::invalid_shape,
             message({"positions has ", coordinates.size(), " numbers; expected ", points_.size()})};
   }
-  const Status finite = check_finite(coordinates, "positions");
-  if (!finite.ok()) return finite;
+  Status finite = check_finite(coordinates, "positions");
+  if (!finite.ok()) {
+    return finite;
+  }
   std::size_t done = 0;
   std::array<double, 3> normal{};
   for (const Place& place : places_) {
@@ -90,13 +111,18 @@ Status Draft::emit(std::span<const double> coordinates, Bytes& out) const {
     if (place.source >= 0) {
       value = coordinates[std::size_t(place.source)];
     } else {
-      const auto component = std::size_t(~place.source) % 3;
       // Facets start at multiples of 9 coordinates, so the component is what remains.
-      if (component == 0) normal = unit_normal(&coordinates[std::size_t(~place.source)]);
+      const std::int32_t source = ~place.source;
+      const auto component = static_cast<std::size_t>(source % 3);
+      if (component == 0) {
+        normal = unit_normal(&coordinates[static_cast<std::size_t>(source)]);
+      }
       value = normal[component];
     }
-    const Status status = append_value(value, out);
-    if (!status.ok()) return status;
+    Status status = append_value(value, out);
+    if (!status.ok()) {
+      return status;
+    }
   }
   out.insert(out.end(), kept_.begin() + std::ptrdiff_t(done), kept_.end());
   return {};

@@ -23,7 +23,11 @@ class Draft {
   explicit Draft(std::size_t soft_limit = std::numeric_limits<std::size_t>::max())
       : soft_limit_(soft_limit) {}
 
+  static constexpr std::size_t longest_text = 24;  ///< -1.2345678901234567e-308
+
   void clear();
+  /// The bytes a coordinate takes at most.
+  std::size_t longest_number() const;
   void set_style(NumberStyle style) { style_ = style; }
 
   /// Bytes that pass through.

@@ -13,7 +13,9 @@ Result<FileFormat> format_from_name(std::string_view name) {
                                                                  {"stl", FileFormat::stl},
                                                                  {"xyz", FileFormat::xyz}};
   for (const auto& [known, format] : formats) {
-    if (name == known) return format;
+    if (name == known) {
+      return format;
+    }
   }
   return Status(ErrorCode::invalid_option, message({"format is \"", name.substr(0, 40),
                                                     "\"; expected obj, ply, off, stl or xyz"}));

@@ -6,9 +6,15 @@ namespace pliant::io {
 
 std::size_t line_end(std::string_view text, std::size_t at, bool last) {
   for (; at < text.size(); ++at) {
-    if (text[at] == '\n') return at + 1;
-    if (text[at] != '\r') continue;
-    if (at + 1 < text.size()) return text[at + 1] == '\n' ? at + 2 : at + 1;
+    if (text[at] == '\n') {
+      return at + 1;
+    }
+    if (text[at] != '\r') {
+      continue;
+    }
+    if (at + 1 < text.size()) {
+      return text[at + 1] == '\n' ? at + 2 : at + 1;
+    }
     break;  // whether a \n follows is not known yet
   }
   return last ? text.size() : std::string_view::npos;
@@ -18,19 +24,27 @@ bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::string_view next_word(std::string_view text, std::size_t& at) {
   const auto blank = [text](std::size_t i) {
-    if (is_blank(text[i])) return true;
+    if (is_blank(text[i])) {
+      return true;
+    }
     return text[i] == '\\' && (i + 1 == text.size() || text[i + 1] == '\n' || text[i + 1] == '\r');
   };
-  while (at < text.size() && blank(at)) ++at;
+  while (at < text.size() && blank(at)) {
+    ++at;
+  }
   const std::size_t first = at;
-  while (at < text.size() && !blank(at)) ++at;
+  while (at < text.size() && !blank(at)) {
+    ++at;
+  }
   return text.substr(first, at - first);
 }
 
 std::string quoted(std::string_view word) {
   std::string text = "\"" + std::string(word.substr(0, 40));
   for (char& c : text) {
-    if (c < ' ' || c > '~') c = '?';
+    if (c < ' ' || c > '~') {
+      c = '?';
+    }
   }
   return text + (word.size() > 40 ? "...\"" : "\"");
 }
@@ -39,7 +53,9 @@ std::size_t LineScanner::record_end(std::string_view text, std::size_t at, bool 
                                     std::uint64_t& lines) const {
   std::size_t end = line_end(text, at, last);
   for (lines = 1; end != std::string_view::npos && continues(text.substr(at, end - at)); ++lines) {
-    if (end == text.size()) return last ? end : std::string_view::npos;
+    if (end == text.size()) {
+      return last ? end : std::string_view::npos;
+    }
     end = line_end(text, end, last);
   }
   return end;
@@ -51,15 +67,19 @@ Result<std::size_t> LineScanner::scan(std::string_view input, bool last, Draft& 
   while (at < input.size() && !draft.full()) {
     std::uint64_t lines = 0;
     const std::size_t end = record_end(input, at, last, lines);
-    if (end == std::string_view::npos) break;
+    if (end == std::string_view::npos) {
+      break;
+    }
     std::string_view line = input.substr(at, end - at);
     if (at_start_ && line.starts_with(byte_order_mark)) {
       draft.keep(byte_order_mark);
       line.remove_prefix(byte_order_mark.size());
     }
     at_start_ = false;
-    const Status status = scan_line(line, draft);
-    if (!status.ok()) return status;
+    Status status = scan_line(line, draft);
+    if (!status.ok()) {
+      return status;
+    }
     line_ += lines;
     at = end;
   }

@@ -42,7 +42,9 @@ bool take_exponent(std::string_view text, std::size_t& at, Decimal& decimal) {
   constexpr int beyond_any_double = 100'000;
   ++at;
   const bool negative = at < text.size() && text[at] == '-';
-  if (at < text.size() && (text[at] == '-' || text[at] == '+')) ++at;
+  if (at < text.size() && (text[at] == '-' || text[at] == '+')) {
+    ++at;
+  }
   const std::size_t first = at;
   int exponent = 0;
   for (; at < text.size() && is_digit(text[at]); ++at) {
@@ -55,16 +57,23 @@ bool take_exponent(std::string_view text, std::size_t& at, Decimal& decimal) {
 std::optional<Decimal> parse_decimal(std::string_view text) {
   Decimal decimal;
   std::size_t at = 0;
-  if (at < text.size() && (text[at] == '-' || text[at] == '+'))
+  if (at < text.size() && (text[at] == '-' || text[at] == '+')) {
     decimal.negative = text[at++] == '-';
+  }
   int digits = take_digits(text, at, decimal, false);
-  if (at < text.size() && text[at] == '.') digits += take_digits(text, ++at, decimal, true);
-  if (digits == 0) return std::nullopt;
+  if (at < text.size() && text[at] == '.') {
+    digits += take_digits(text, ++at, decimal, true);
+  }
+  if (digits == 0) {
+    return std::nullopt;
+  }
   if (at < text.size() && (text[at] == 'e' || text[at] == 'E') &&
       !take_exponent(text, at, decimal)) {
     return std::nullopt;
   }
-  if (at != text.size()) return std::nullopt;
+  if (at != text.size()) {
+    return std::nullopt;
+  }
   return decimal;
 }
 
@@ -74,7 +83,9 @@ constexpr int largest_exact_power = 27;  // 5^27 < 2^63
 
 constexpr std::array<std::uint64_t, largest_exact_power + 1> powers_of_five() {
   std::array<std::uint64_t, largest_exact_power + 1> powers{1};
-  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = 5 * powers[i - 1];
+  for (std::size_t i = 1; i < powers.size(); ++i) {
+    powers[i] = 5 * powers[i - 1];
+  }
   return powers;
 }
 
@@ -85,11 +96,15 @@ double round_to_double(Wide value, bool inexact, int exponent) {
   const int bits =
       high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(std::uint64_t(value));
   const int shift = bits - 53;
-  if (shift <= 0) return std::ldexp(static_cast<double>(std::uint64_t(value)), exponent);
+  if (shift <= 0) {
+    return std::ldexp(static_cast<double>(std::uint64_t(value)), exponent);
+  }
   const Wide half = Wide{1} << (shift - 1);
   const Wide rest = value & (2 * half - 1);
   auto kept = static_cast<std::uint64_t>(value >> shift);
-  if (rest > half || (rest == half && (inexact || kept % 2 == 1))) ++kept;
+  if (rest > half || (rest == half && (inexact || kept % 2 == 1))) {
+    ++kept;
+  }
   return std::ldexp(static_cast<double>(kept), exponent + shift);
 }
 
@@ -98,8 +113,12 @@ double round_to_double(Wide value, bool inexact, int exponent) {
 /// Nothing for other numbers. In WASM several times as fast as strtod.
 std::optional<double> convert_in_integers(const Decimal& decimal) {
   constexpr auto powers = powers_of_five();
-  if (!decimal.exact || std::abs(decimal.exponent) > largest_exact_power) return std::nullopt;
-  if (decimal.mantissa == 0) return 0.0;
+  if (!decimal.exact || std::abs(decimal.exponent) > largest_exact_power) {
+    return std::nullopt;
+  }
+  if (decimal.mantissa == 0) {
+    return 0.0;
+  }
   if (decimal.exponent >= 0) {
     const Wide product = Wide{decimal.mantissa} * powers[std::size_t(decimal.exponent)];
     return round_to_double(product, false, decimal.exponent);
@@ -133,14 +152,18 @@ double convert(std::string_view digits) {
 
 std::optional<double> read_number(std::string_view text) {
   const std::optional<Decimal> decimal = parse_decimal(text);
-  if (!decimal) return std::nullopt;
+  if (!decimal) {
+    return std::nullopt;
+  }
   double value = 0.0;
   if (const std::optional<double> fast = convert_in_integers(*decimal)) {
     value = *fast;
   } else {
     value = convert(text.substr(text.front() == '-' || text.front() == '+' ? 1 : 0));
   }
-  if (!std::isfinite(value)) return std::nullopt;
+  if (!std::isfinite(value)) {
+    return std::nullopt;
+  }
   return decimal->negative ? -value : value;
 }
 
@@ -149,7 +172,9 @@ std::optional<std::uint64_t> read_count(std::string_view text) {
     return std::nullopt;
   }
   std::uint64_t value = 0;
-  for (const char c : text) value = 10 * value + static_cast<std::uint64_t>(c - '0');
+  for (const char c : text) {
+    value = 10 * value + static_cast<std::uint64_t>(c - '0');
+  }
   return value;
 }
 
@@ -167,7 +192,9 @@ void append_number(Bytes& out, double value) {
 
 void append_numbers(Bytes& out, const double* values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0) out.push_back(' ');
+    if (i > 0) {
+      out.push_back(' ');
+    }
     append_number(out, values[i]);
   }
 }

@@ -49,10 +49,16 @@ bool is_readable_corner(std::string_view word) {
   for (std::size_t i = 0; i < word.size(); ++i) {
     const bool starts = i == 0 || word[i - 1] == '/';
     digits = is_digit(word[i]) ? digits + 1 : 0;
-    if (digits > most_digits) return false;
-    if (digits > 0 || (word[i] == '/' && i > 0)) continue;
+    if (digits > most_digits) {
+      return false;
+    }
+    if (digits > 0 || (word[i] == '/' && i > 0)) {
+      continue;
+    }
     const bool sign = word[i] == '-' || word[i] == '+';
-    if (!sign || !starts || i + 1 == word.size() || !is_digit(word[i + 1])) return false;
+    if (!sign || !starts || i + 1 == word.size() || !is_digit(word[i + 1])) {
+      return false;
+    }
   }
   return is_digit(word.back());
 }
@@ -92,9 +98,13 @@ Status ObjFaceReader::flush() {
 
 std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind,
                                                     std::uint64_t before) {
-  if (id > 0) return static_cast<std::uint32_t>(id - 1);
+  if (id > 0) {
+    return static_cast<std::uint32_t>(id - 1);
+  }
   const std::uint64_t back = 0 - static_cast<std::uint64_t>(std::int64_t{id});
-  if (id < 0 && back <= before) return static_cast<std::uint32_t>(before - back);
+  if (id < 0 && back <= before) {
+    return static_cast<std::uint32_t>(before - back);
+  }
   const std::string reason =
       id == 0 ? "; ids count from 1" : message({"; ", before, " stand before it"});
   error_ = {ErrorCode::parse_error, message({"line ", origins_[current_].line, ": face refers to ",
@@ -105,13 +115,17 @@ std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind,
 void ObjFaceReader::face(std::span<const ObjCorner> corners) {
   const Origin& origin = origins_[current_];
   for (const ObjCorner& corner : corners) {
-    if (!error_.ok()) return;
+    if (!error_.ok()) {
+      return;
+    }
     const auto vertex = resolve(corner.vertex, "vertex", origin.vertices);
     std::optional<std::uint32_t> texcoord = PolygonMesh::no_texcoord;
     if (corner.texcoord != 0) {
       texcoord = resolve(corner.texcoord, "texture coordinate", origin.texcoords);
     }
-    if (vertex && texcoord) polygons_.corner(*vertex, *texcoord, origin.line);
+    if (vertex && texcoord) {
+      polygons_.corner(*vertex, *texcoord, origin.line);
+    }
   }
   polygons_.end_polygon();
   ++current_;
@@ -120,7 +134,9 @@ void ObjFaceReader::face(std::span<const ObjCorner> corners) {
 class ObjScanner final : public LineScanner {
  public:
   explicit ObjScanner(PolygonCollector* polygons) : polygons_(polygons) {
-    if (polygons_) faces_.emplace(*polygons_);
+    if (polygons_) {
+      faces_.emplace(*polygons_);
+    }
   }
 
   Status finish() override;
@@ -138,8 +154,12 @@ class ObjScanner final : public LineScanner {
 /// Statements of numbers continue behind a backslash; a name or a comment may simply end with one.
 bool ObjScanner::continues(std::string_view line) const {
   std::size_t end = line.size();
-  while (end > 0 && (line[end - 1] == '\n' || line[end - 1] == '\r')) --end;
-  if (end == 0 || line[end - 1] != '\\') return false;
+  while (end > 0 && (line[end - 1] == '\n' || line[end - 1] == '\r')) {
+    --end;
+  }
+  if (end == 0 || line[end - 1] != '\\') {
+    return false;
+  }
   std::size_t at = 0;
   const std::string_view keyword = next_word(line, at);
   return keyword.starts_with('v') || keyword == "f";
@@ -150,17 +170,21 @@ Status ObjScanner::scan_line(std::string_view line, Draft& draft) {
   const std::string_view keyword = next_word(line, at);
   if (keyword == "v") {
     std::size_t kept = 0;
-    const Status status = take_point(line, kept, at, draft);
+    Status status = take_point(line, kept, at, draft);
     draft.keep(line.substr(kept));
     return status;
   }
-  if (keyword == "vn") return {};
+  if (keyword == "vn") {
+    return {};
+  }
   if (keyword == "f") {
     keep_without_normals(line, at, draft);
     return faces_ ? faces_->add(line.substr(at), line_, vertices_) : Status();
   }
   draft.keep(line);
-  if (keyword == "vt" && polygons_) return read_texcoord(line, at);
+  if (keyword == "vt" && polygons_) {
+    return read_texcoord(line, at);
+  }
   return {};
 }
 
@@ -170,7 +194,9 @@ Status ObjScanner::read_texcoord(std::string_view line, std::size_t at) {
   double uv[2] = {0.0, 0.0};
   for (int i = 0; i < 2; ++i) {
     const std::string_view word = next_word(line, at);
-    if (word.empty() && i == 1) break;
+    if (word.empty() && i == 1) {
+      break;
+    }
     const std::optional<double> value = read_number(word);
     if (!value) {
       return failure(
@@ -186,11 +212,17 @@ void ObjScanner::keep_without_normals(std::string_view line, std::size_t at, Dra
   std::size_t kept = 0;
   while (true) {
     const std::string_view word = next_word(line, at);
-    if (word.empty() || word.starts_with('#')) break;
+    if (word.empty() || word.starts_with('#')) {
+      break;
+    }
     const std::size_t first = word.find('/');
-    if (first == std::string_view::npos) continue;
+    if (first == std::string_view::npos) {
+      continue;
+    }
     const std::size_t second = word.find('/', first + 1);
-    if (second == std::string_view::npos) continue;
+    if (second == std::string_view::npos) {
+      continue;
+    }
     const std::size_t length = second == first + 1 ? first : second;
     draft.keep(line.substr(kept, at - word.size() + length - kept));
     kept = at;
@@ -199,9 +231,11 @@ void ObjScanner::keep_without_normals(std::string_view line, std::size_t at, Dra
 }
 
 Status ObjScanner::finish() {
-  const Status vertices_found = require_vertices(vertices_);
-  if (!vertices_found.ok() || !faces_) return vertices_found;
-  const Status faces_read = faces_->flush();
+  Status vertices_found = require_vertices(vertices_);
+  if (!vertices_found.ok() || !faces_) {
+    return vertices_found;
+  }
+  Status faces_read = faces_->flush();
   return faces_read.ok() ? polygons_->finish(vertices_, "line", 1) : faces_read;
 }
 
@@ -227,8 +261,12 @@ void write_obj(const PolygonMesh& mesh, std::span<const double> positions, Bytes
     for (std::uint32_t c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
       out.push_back(' ');
       append_count(out, std::uint64_t{mesh.face_vertices[c]} + 1);
-      if (mesh.corner_texcoords.empty()) continue;
-      if (mesh.corner_texcoords[c] == PolygonMesh::no_texcoord) continue;
+      if (mesh.corner_texcoords.empty()) {
+        continue;
+      }
+      if (mesh.corner_texcoords[c] == PolygonMesh::no_texcoord) {
+        continue;
+      }
       out.push_back('/');
       append_count(out, std::uint64_t{mesh.corner_texcoords[c]} + 1);
     }

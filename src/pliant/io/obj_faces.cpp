@@ -2,6 +2,7 @@
 
 #include "pliant/io/tinyobj_streams.h"
 
+// tinyobj_streams.h says why.
 #define std pliant::io::tinyobj_std
 #define TINYOBJLOADER_IMPLEMENTATION
 #define TINYOBJLOADER_USE_DOUBLE

@@ -66,7 +66,9 @@ Status OffScanner::scan_header(std::string_view line, Draft& draft) {
   std::size_t length = 0;
   const auto take = [&](std::string_view prefix) {
     const bool found = word.substr(length).starts_with(prefix);
-    if (found) length += prefix.size();
+    if (found) {
+      length += prefix.size();
+    }
     return found;
   };
   has_texcoords_ = take("ST");
@@ -102,17 +104,23 @@ Status OffScanner::scan_counts(std::string_view words) {
 Status OffScanner::scan_vertex(std::string_view line, Draft& draft) {
   std::size_t kept = 0;
   std::size_t at = 0;
-  const Status status = take_point(line, kept, at, draft);
-  if (!status.ok()) return status;
+  Status status = take_point(line, kept, at, draft);
+  if (!status.ok()) {
+    return status;
+  }
   const std::string_view words = without_comment(line);
   for (int i = 0; has_normals_ && i < 3; ++i) {
-    if (next_word(words, at).empty()) return failure({"expected 3 numbers of a normal"});
+    if (next_word(words, at).empty()) {
+      return failure({"expected 3 numbers of a normal"});
+    }
   }
   draft.keep(line.substr(at));
   if (vertices_ == vertex_count_) {
     expected_ = face_count_ == 0 ? Expected::nothing : Expected::faces;
   }
-  if (!has_texcoords_ || !polygons_) return {};
+  if (!has_texcoords_ || !polygons_) {
+    return {};
+  }
   return read_vertex_texcoord(words.substr(at));
 }
 
@@ -124,18 +132,26 @@ Status OffScanner::read_vertex_texcoord(std::string_view words) {
     uv[0] = uv[1];
     uv[1] = read_number(word);
   }
-  if (!uv[0] || !uv[1]) return failure({"expected 2 finite texture coordinates at the end"});
+  if (!uv[0] || !uv[1]) {
+    return failure({"expected 2 finite texture coordinates at the end"});
+  }
   polygons_->texcoord(*uv[0], *uv[1]);
   return {};
 }
 
 Status OffScanner::read_face(std::string_view words) {
-  if (++faces_ == face_count_) expected_ = Expected::nothing;
-  if (!polygons_) return {};
+  if (++faces_ == face_count_) {
+    expected_ = Expected::nothing;
+  }
+  if (!polygons_) {
+    return {};
+  }
   std::size_t at = 0;
   const std::string_view first = next_word(words, at);
   const std::optional<std::uint64_t> corners = read_count(first);
-  if (!corners) return failure({"expected the number of corners, found ", quoted(first)});
+  if (!corners) {
+    return failure({"expected the number of corners, found ", quoted(first)});
+  }
   for (std::uint64_t i = 0; i < *corners; ++i) {
     const std::string_view word = next_word(words, at);
     if (word.empty()) {

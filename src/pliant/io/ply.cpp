@@ -56,8 +56,10 @@ class PlyScanner final : public Scanner {
 Result<std::size_t> PlyScanner::scan(std::string_view input, bool last, Draft& draft) {
   std::size_t at = 0;
   if (!header_) {
-    const Result<std::size_t> size = scan_header(input, last, draft);
-    if (!size.ok() || *size == 0) return size;
+    Result<std::size_t> size = scan_header(input, last, draft);
+    if (!size.ok() || *size == 0) {
+      return size;
+    }
     at = *size;
   }
   while (!draft.full()) {
@@ -66,9 +68,13 @@ Result<std::size_t> PlyScanner::scan(std::string_view input, bool last, Draft& d
       draft.keep(input.substr(at));
       return input.size();
     }
-    const Result<std::size_t> size = scan_record(input.substr(at), last, draft);
-    if (!size.ok()) return size;
-    if (*size == 0) return last ? Result<std::size_t>(ends_early()) : at;
+    Result<std::size_t> size = scan_record(input.substr(at), last, draft);
+    if (!size.ok()) {
+      return size;
+    }
+    if (*size == 0) {
+      return last ? Result<std::size_t>(ends_early()) : at;
+    }
     at += *size;
   }
   return at;
@@ -82,11 +88,15 @@ Result<std::size_t> PlyScanner::scan_header(std::string_view input, bool last, D
   }
   const std::size_t size = ply_header_size(input);
   if (size == 0) {
-    if (!last) return std::size_t{0};
+    if (!last) {
+      return std::size_t{0};
+    }
     return failure({"the header has no end_header line"});
   }
   Result<PlyHeader> header = parse_ply_header(input.substr(0, size));
-  if (!header.ok()) return header.status();
+  if (!header.ok()) {
+    return header.status();
+  }
   header_ = std::move(*header);
   where_ = is_text() ? header_->lines + 1 : size;
   set_up(draft);
@@ -100,7 +110,9 @@ void PlyScanner::set_up(Draft& draft) {
   for (PlyElement& element : header_->elements) {
     for (PlyProperty& property : element.properties) {
       // Without a collector nobody asks for what is not a coordinate.
-      if (!polygons_ && property.role > PlyRole::z) property.role = PlyRole::keep;
+      if (!polygons_ && property.role > PlyRole::z) {
+        property.role = PlyRole::keep;
+      }
       has_u = has_u || property.role == PlyRole::u;
       has_v = has_v || property.role == PlyRole::v;
     }
@@ -114,15 +126,19 @@ Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, D
   draft.set_style(styles[static_cast<int>(header_->encoding)]);
   const PlyElement& element = header_->elements[element_];
   blank_ = false;
-  const Result<std::size_t> size =
+  Result<std::size_t> size =
       is_text() ? read_text(element, input, last) : read_binary(element, input);
-  if (!size.ok() || *size == 0) return size;
+  if (!size.ok() || *size == 0) {
+    return size;
+  }
   const std::string_view bytes = input.substr(0, *size);
   if (blank_) {
     draft.keep(bytes);
   } else {
-    const Status status = take_record(element, bytes, draft);
-    if (!status.ok()) return status;
+    Status status = take_record(element, bytes, draft);
+    if (!status.ok()) {
+      return status;
+    }
     ++index_;
   }
   where_ += is_text() ? 1 : bytes.size();
@@ -132,26 +148,38 @@ Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, D
 Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string_view input,
                                           bool last) {
   const std::size_t end = line_end(input, 0, last);
-  if (end == std::string_view::npos || end == 0) return std::size_t{0};
+  if (end == std::string_view::npos || end == 0) {
+    return std::size_t{0};
+  }
   const std::string_view line = input.substr(0, end);
   std::size_t at = 0;
   blank_ = next_word(line, at).empty();
-  if (blank_ || (element.name != "vertex" && !polygons_)) return end;
+  if (blank_ || (element.name != "vertex" && !polygons_)) {
+    return end;
+  }
   const std::string error = read_text_record(element, line, record_);
-  if (!error.empty()) return failure({error});
+  if (!error.empty()) {
+    return failure({error});
+  }
   return end;
 }
 
 Result<std::size_t> PlyScanner::read_binary(const PlyElement& element, std::string_view input) {
   std::string error;
   const std::size_t size = ply_record_size(element, is_big_endian(), input, error);
-  if (!error.empty()) return failure({error});
-  if (size > 0) read_binary_record(element, is_big_endian(), input, record_);
+  if (!error.empty()) {
+    return failure({error});
+  }
+  if (size > 0) {
+    read_binary_record(element, is_big_endian(), input, record_);
+  }
   return size;
 }
 
 Status PlyScanner::take_record(const PlyElement& element, std::string_view bytes, Draft& draft) {
-  if (element.name == "vertex") return take_vertex(element, bytes, draft);
+  if (element.name == "vertex") {
+    return take_vertex(element, bytes, draft);
+  }
   draft.keep(bytes);
   return polygons_ ? take_polygons(element) : Status();
 }
@@ -164,10 +192,14 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     const PlyRecord::Field& field = record_.fields[i];
     const PlyRole role = element.properties[i].role;
-    if (role == PlyRole::keep) continue;
+    if (role == PlyRole::keep) {
+      continue;
+    }
     if (role == PlyRole::drop) {
       const std::size_t before = i == 0 ? 0 : record_.fields[i - 1].end;
-      if (before > kept) draft.keep(bytes.substr(kept, before - kept));
+      if (before > kept) {
+        draft.keep(bytes.substr(kept, before - kept));
+      }
       kept = field.end;
       continue;
     }
@@ -185,7 +217,9 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
   }
   draft.keep(bytes.substr(kept));
   ++vertices_;
-  if (vertex_texcoords_) polygons_->texcoord(texcoord[0], texcoord[1]);
+  if (vertex_texcoords_) {
+    polygons_->texcoord(texcoord[0], texcoord[1]);
+  }
   return {};
 }
 
@@ -197,8 +231,12 @@ Status PlyScanner::take_polygons(const PlyElement& element) {
     const PlyRole role = element.properties[i].role;
     const PlyRecord::Field& field = record_.fields[i];
     const std::span<const double> values(record_.values.data() + field.first, field.count);
-    if (role == PlyRole::corners || role == PlyRole::strips) ids = values;
-    if (role == PlyRole::corner_texcoords) texcoords = values;
+    if (role == PlyRole::corners || role == PlyRole::strips) {
+      ids = values;
+    }
+    if (role == PlyRole::corner_texcoords) {
+      texcoords = values;
+    }
     strips = strips || role == PlyRole::strips;
   }
   return strips ? add_strips(ids) : add_polygon(ids, texcoords);
@@ -209,7 +247,9 @@ Status PlyScanner::add_polygon(std::span<const double> ids, std::span<const doub
   const bool own_texcoords = !ids.empty() && texcoords.size() == 2 * ids.size();
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const Result<std::uint32_t> id = vertex_id(ids[i]);
-    if (!id.ok()) return id.status();
+    if (!id.ok()) {
+      return id.status();
+    }
     std::uint32_t texcoord = vertex_texcoords_ ? *id : PolygonMesh::no_texcoord;
     if (own_texcoords && !vertex_texcoords_) {
       if (!std::isfinite(texcoords[2 * i]) || !std::isfinite(texcoords[2 * i + 1])) {
@@ -234,7 +274,9 @@ Status PlyScanner::add_strips(std::span<const double> ids) {
       continue;
     }
     const Result<std::uint32_t> id = vertex_id(value);
-    if (!id.ok()) return id.status();
+    if (!id.ok()) {
+      return id.status();
+    }
     if (length >= 2) {
       const std::size_t first = length % 2;
       for (const std::uint32_t corner : {before[first], before[1 - first], *id}) {
@@ -271,11 +313,17 @@ Status PlyScanner::ends_early() const {
 }
 
 Status PlyScanner::finish() {
-  if (!header_) return failure({"expected ply, found the end of the file"});
+  if (!header_) {
+    return failure({"expected ply, found the end of the file"});
+  }
   skip_finished_elements();
-  if (element_ < header_->elements.size()) return ends_early();
-  const Status status = require_vertices(vertices_);
-  if (!status.ok() || !polygons_) return status;
+  if (element_ < header_->elements.size()) {
+    return ends_early();
+  }
+  Status status = require_vertices(vertices_);
+  if (!status.ok() || !polygons_) {
+    return status;
+  }
   return polygons_->finish(vertices_, is_text() ? "line" : "byte", 0);
 }
 
@@ -308,16 +356,24 @@ void write_ply(const PolygonMesh& mesh, std::span<const double> positions, Bytes
     append(out, "element face ");
     append_count(out, mesh.face_count());
     append(out, "\n" + list + " int vertex_indices\n");
-    if (textured) append(out, list + " double texcoord\n");
+    if (textured) {
+      append(out, list + " double texcoord\n");
+    }
   }
   append(out, "end_header\n");
-  for (const double value : positions) store(out, value, false);
+  for (const double value : positions) {
+    store(out, value, false);
+  }
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const std::uint32_t first = mesh.face_offsets[f];
     const std::uint32_t end = mesh.face_offsets[f + 1];
     store_length(end - first);
-    for (std::uint32_t c = first; c < end; ++c) store(out, mesh.face_vertices[c], false);
-    if (!textured) continue;
+    for (std::uint32_t c = first; c < end; ++c) {
+      store(out, mesh.face_vertices[c], false);
+    }
+    if (!textured) {
+      continue;
+    }
     store_length(2 * (end - first));
     for (std::uint32_t c = first; c < end; ++c) {
       const auto [u, v] = mesh.corner_texcoord(c);

@@ -16,7 +16,9 @@ constexpr std::size_t npos = std::string_view::npos;
 /// the endings cannot be mixed. npos when that is not known yet.
 std::size_t header_line_end(std::string_view text, std::size_t at) {
   const std::size_t first = text.find_first_of("\r\n");
-  if (first == npos || (text[first] == '\r' && first + 1 == text.size())) return npos;
+  if (first == npos || (text[first] == '\r' && first + 1 == text.size())) {
+    return npos;
+  }
   const bool lone_return = text[first] == '\r' && text[first + 1] != '\n';
   const std::size_t end = text.find(lone_return ? '\r' : '\n', at);
   return end == npos ? npos : end + 1;
@@ -33,7 +35,9 @@ std::optional<PlyType> type_from_name(std::string_view name) {
       {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
       {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64}};
   for (const Named& known : types) {
-    if (name == known.name || name == known.alias) return known.type;
+    if (name == known.name || name == known.alias) {
+      return known.type;
+    }
   }
   return std::nullopt;
 }
@@ -50,18 +54,30 @@ PlyRole vertex_role(const PlyProperty& property) {
       {"t", PlyRole::v},         {"texture_u", PlyRole::u}, {"texture_v", PlyRole::v},
       {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}};
   for (const Named& known : names) {
-    if (property.name == known.name && !property.is_list) return known.role;
+    if (property.name == known.name && !property.is_list) {
+      return known.role;
+    }
   }
   return PlyRole::keep;
 }
 
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   const bool ids = property.name == "vertex_indices" || property.name == "vertex_index";
-  if (element.name == "vertex") return vertex_role(property);
-  if (!property.is_list) return PlyRole::keep;
-  if (element.name == "tristrips" && ids) return PlyRole::strips;
-  if (element.name == "face" && ids) return PlyRole::corners;
-  if (element.name == "face" && property.name == "texcoord") return PlyRole::corner_texcoords;
+  if (element.name == "vertex") {
+    return vertex_role(property);
+  }
+  if (!property.is_list) {
+    return PlyRole::keep;
+  }
+  if (element.name == "tristrips" && ids) {
+    return PlyRole::strips;
+  }
+  if (element.name == "face" && ids) {
+    return PlyRole::corners;
+  }
+  if (element.name == "face" && property.name == "texcoord") {
+    return PlyRole::corner_texcoords;
+  }
   return PlyRole::keep;
 }
 
@@ -86,8 +102,10 @@ class HeaderParser {
 Result<PlyHeader> HeaderParser::parse(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(header_line_end(text, at), text.size());
-    const Status status = parse_line(text.substr(at, end - at));
-    if (!status.ok()) return status;
+    Status status = parse_line(text.substr(at, end - at));
+    if (!status.ok()) {
+      return status;
+    }
     ++header_.lines;
     at = end;
   }
@@ -97,13 +115,23 @@ Result<PlyHeader> HeaderParser::parse(std::string_view text) {
 Status HeaderParser::parse_line(std::string_view line) {
   std::size_t at = 0;
   const std::string_view keyword = next_word(line, at);
-  if (keyword == "property") return parse_property(line, at);
+  if (keyword == "property") {
+    return parse_property(line, at);
+  }
   header_.rewritten += line;
-  if (keyword == "format") return parse_format(line, at);
-  if (keyword == "element") return parse_element(line, at);
-  if (keyword == "end_header") return check();
+  if (keyword == "format") {
+    return parse_format(line, at);
+  }
+  if (keyword == "element") {
+    return parse_element(line, at);
+  }
+  if (keyword == "end_header") {
+    return check();
+  }
   constexpr std::string_view others[] = {"ply", "comment", "obj_info", ""};
-  if (std::find(std::begin(others), std::end(others), keyword) != std::end(others)) return {};
+  if (std::find(std::begin(others), std::end(others), keyword) != std::end(others)) {
+    return {};
+  }
   return failure({"found ", quoted(keyword),
                   "; expected format, element, property, comment, obj_info or end_header"});
 }
@@ -144,7 +172,9 @@ Status HeaderParser::parse_element(std::string_view line, std::size_t at) {
 }
 
 Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
-  if (header_.elements.empty()) return failure({"property before the first element"});
+  if (header_.elements.empty()) {
+    return failure({"property before the first element"});
+  }
   PlyElement& element = header_.elements.back();
   PlyProperty property;
   std::string_view type_name = next_word(line, at);
@@ -161,10 +191,14 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
   }
   const std::size_t type_end = at;
   const std::optional<PlyType> type = type_from_name(type_name);
-  if (!type) return failure({"property type is ", quoted(type_name), "; expected float, int, ..."});
+  if (!type) {
+    return failure({"property type is ", quoted(type_name), "; expected float, int, ..."});
+  }
   property.type = *type;
   property.name = next_word(line, at);
-  if (property.name.empty()) return failure({"property without a name"});
+  if (property.name.empty()) {
+    return failure({"property without a name"});
+  }
   property.role = role_of(element, property);
   for (const PlyProperty& other : element.properties) {
     if (other.name == property.name) {
@@ -183,21 +217,29 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
 }
 
 Status HeaderParser::check() const {
-  if (!has_format_) return failure({"the header has no format line"});
+  if (!has_format_) {
+    return failure({"the header has no format line"});
+  }
   const PlyElement* vertex = nullptr;
   for (const PlyElement& element : header_.elements) {
     if (element.properties.empty() && element.count > 0) {
       return failure({"element ", quoted(element.name), " has no properties"});
     }
-    if (element.name == "vertex") vertex = &element;
+    if (element.name == "vertex") {
+      vertex = &element;
+    }
   }
-  if (!vertex) return failure({"the header has no element vertex"});
+  if (!vertex) {
+    return failure({"the header has no element vertex"});
+  }
   for (const PlyRole role : {PlyRole::x, PlyRole::y, PlyRole::z}) {
     const bool found = std::any_of(vertex->properties.begin(), vertex->properties.end(),
                                    [role](const PlyProperty& p) { return p.role == role; });
     const char* names[] = {"x", "y", "z"};
     const int axis = static_cast<int>(role) - static_cast<int>(PlyRole::x);
-    if (!found) return failure({"element vertex has no property ", names[axis]});
+    if (!found) {
+      return failure({"element vertex has no property ", names[axis]});
+    }
   }
   return {};
 }
@@ -213,9 +255,13 @@ std::size_t ply_header_size(std::string_view text) {
   std::size_t at = 0;
   while (true) {
     const std::size_t end = header_line_end(text, at);
-    if (end == npos) return 0;
+    if (end == npos) {
+      return 0;
+    }
     std::size_t word_at = 0;
-    if (next_word(text.substr(at, end - at), word_at) == "end_header") return end;
+    if (next_word(text.substr(at, end - at), word_at) == "end_header") {
+      return end;
+    }
     at = end;
   }
 }

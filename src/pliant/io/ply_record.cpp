@@ -37,7 +37,9 @@ bool has_values(const PlyProperty& property) {
 }
 
 std::string wrong_number(const PlyProperty& property, std::string_view word) {
-  if (word.empty()) return message({"the line ends before ", quoted(property.name)});
+  if (word.empty()) {
+    return message({"the line ends before ", quoted(property.name)});
+  }
   return message({property.name, " is ", quoted(word), "; expected a finite decimal number"});
 }
 
@@ -46,10 +48,16 @@ std::string take_words(const PlyProperty& property, std::uint64_t count, std::st
                        std::size_t& at, PlyRecord& record) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::string_view word = next_word(line, at);
-    if (word.empty()) return wrong_number(property, word);
-    if (!has_values(property)) continue;
+    if (word.empty()) {
+      return wrong_number(property, word);
+    }
+    if (!has_values(property)) {
+      continue;
+    }
     const std::optional<double> value = read_number(word);
-    if (!value) return wrong_number(property, word);
+    if (!value) {
+      return wrong_number(property, word);
+    }
     record.values.push_back(*value);
   }
   return {};
@@ -64,7 +72,9 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
     std::uint64_t count = 1;
     if (property.is_list) {
       const std::size_t count_size = ply_size(property.count_type);
-      if (size + count_size > input.size()) return 0;
+      if (size + count_size > input.size()) {
+        return 0;
+      }
       const double value =
           load_number(&input[static_cast<std::size_t>(size)], property.count_type, big_endian);
       if (value < 0) {
@@ -75,7 +85,9 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
       size += count_size;
     }
     size += count * ply_size(property.type);
-    if (size > input.size()) return 0;
+    if (size > input.size()) {
+      return 0;
+    }
   }
   return static_cast<std::size_t>(size);
 }
@@ -110,7 +122,9 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
   record.values.clear();
   std::size_t at = 0;
   for (const PlyProperty& property : element.properties) {
-    while (at < line.size() && is_blank(line[at])) ++at;
+    while (at < line.size() && is_blank(line[at])) {
+      ++at;
+    }
     const std::size_t begin = at;
     const std::size_t first = record.values.size();
     std::uint64_t count = 1;
@@ -124,11 +138,15 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
       count = *length;
     }
     std::string error = take_words(property, count, line, at, record);
-    if (!error.empty()) return error;
+    if (!error.empty()) {
+      return error;
+    }
     record.fields.push_back({begin, at, first, record.values.size() - first});
   }
   const std::string_view extra = next_word(line, at);
-  if (extra.empty()) return {};
+  if (extra.empty()) {
+    return {};
+  }
   return message({"found ", quoted(extra), " behind the ", element.properties.size(),
                   " properties of element ", element.name});
 }

@@ -5,7 +5,9 @@
 namespace pliant::io {
 
 void PolygonCollector::Largest::see(std::uint32_t other, std::uint64_t at) {
-  if (any && other <= id) return;
+  if (any && other <= id) {
+    return;
+  }
   *this = {other, at, true};
 }
 
@@ -19,7 +21,9 @@ void PolygonCollector::corner(std::uint32_t vertex, std::uint32_t texcoord, std:
       mesh_.corner_texcoords.assign(mesh_.face_vertices.size() - 1, PolygonMesh::no_texcoord);
     }
   }
-  if (textured_) mesh_.corner_texcoords.push_back(texcoord);
+  if (textured_) {
+    mesh_.corner_texcoords.push_back(texcoord);
+  }
 }
 
 void PolygonCollector::end_polygon() {
@@ -29,7 +33,9 @@ void PolygonCollector::end_polygon() {
     mesh_.face_offsets.push_back(end);
   } else {
     mesh_.face_vertices.resize(first);
-    if (textured_) mesh_.corner_texcoords.resize(first);
+    if (textured_) {
+      mesh_.corner_texcoords.resize(first);
+    }
   }
 }
 
@@ -40,14 +46,18 @@ void PolygonCollector::texcoord(double u, double v) {
 Status PolygonCollector::finish(std::uint64_t vertex_count, const char* unit, int first_id) const {
   const auto check = [&](const Largest& largest, std::uint64_t count, const char* kind,
                          const char* plural) -> Status {
-    if (!largest.any || largest.id < count) return {};
+    if (!largest.any || largest.id < count) {
+      return {};
+    }
     return {ErrorCode::parse_error,
             message({unit, " ", largest.where, ": face refers to ", kind, " ",
                      largest.id + std::uint64_t(first_id), "; the file has ", count, " ", plural,
                      first_id == 0 ? ", counted from 0" : ""})};
   };
-  const Status vertices = check(vertex_, vertex_count, "vertex", "vertices");
-  if (!vertices.ok()) return vertices;
+  Status vertices = check(vertex_, vertex_count, "vertex", "vertices");
+  if (!vertices.ok()) {
+    return vertices;
+  }
   return check(texcoord_, texcoord_count(), "texture coordinate", "texture coordinates");
 }
 

@@ -28,7 +28,9 @@ struct PolygonMesh {
   /// (u, v) of a corner, where corner_texcoords is not empty; (0, 0) where the corner has none.
   std::array<double, 2> corner_texcoord(std::size_t corner) const {
     const std::size_t id = corner_texcoords[corner];
-    if (id == no_texcoord) return {0.0, 0.0};
+    if (id == no_texcoord) {
+      return {0.0, 0.0};
+    }
     return {texcoords[2 * id], texcoords[2 * id + 1]};
   }
 };
@@ -39,6 +41,7 @@ class PolygonCollector {
  public:
   /// Beyond this the 2 GB of a WASM module's memory run out.
   static constexpr std::size_t max_corners = 48'000'000;
+  static constexpr std::size_t max_textured_corners = 24'000'000;
   static constexpr std::size_t max_texcoords = 16'000'000;
 
   /// Adds a corner to the polygon under way. `where`: line or byte, for messages.
@@ -49,7 +52,9 @@ class PolygonCollector {
   void texcoord(double u, double v);
 
   bool too_large() const {
-    return mesh_.face_vertices.size() > max_corners || mesh_.texcoords.size() > 2 * max_texcoords;
+    return mesh_.face_vertices.size() > max_corners ||
+           mesh_.corner_texcoords.size() > max_textured_corners ||
+           mesh_.texcoords.size() > 2 * max_texcoords;
   }
   std::uint32_t texcoord_count() const {
     return static_cast<std::uint32_t>(mesh_.texcoords.size() / 2);

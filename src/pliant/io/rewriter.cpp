@@ -35,7 +35,7 @@ Status Rewriter::push(ByteView piece, bool last) {
   }
   draft_.clear();
   pending_.insert(pending_.end(), piece.begin(), piece.end());
-  const Status status = scan(last);
+  Status status = scan(last);
   if (!status.ok()) {
     draft_.clear();
     state_ = State::closed;
@@ -47,10 +47,16 @@ Status Rewriter::push(ByteView piece, bool last) {
 
 Status Rewriter::scan(bool last) {
   const Result<std::size_t> taken = scanner_->scan(text_of(pending_), last, draft_);
-  if (!taken.ok()) return taken.status();
+  if (!taken.ok()) {
+    return taken.status();
+  }
   pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(*taken));
-  if (last) return scanner_->finish();
-  if (pending_.size() <= max_record) return {};
+  if (last) {
+    return scanner_->finish();
+  }
+  if (pending_.size() <= max_record) {
+    return {};
+  }
   return {ErrorCode::parse_error,
           message({scanner_->place(), ": a record of more than ", max_record, " bytes"})};
 }
@@ -60,7 +66,7 @@ Status Rewriter::emit(std::span<const double> coordinates, Bytes& out) {
     return {ErrorCode::invalid_option, "emit without a push before it"};
   }
   const std::size_t size_before = out.size();
-  const Status status = draft_.emit(coordinates, out);
+  Status status = draft_.emit(coordinates, out);
   if (!status.ok()) {
     out.resize(size_before);
     return status;

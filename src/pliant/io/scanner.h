@@ -40,7 +40,9 @@ class Scanner {
     return {ErrorCode::parse_error, message({place(), ": ", message(reason)})};
   }
   static Status require_vertices(std::uint64_t count) {
-    if (count > 0) return {};
+    if (count > 0) {
+      return {};
+    }
     return {ErrorCode::parse_error, "the file has no vertices"};
   }
 };

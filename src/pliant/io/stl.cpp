@@ -17,7 +17,9 @@ constexpr std::size_t facet_size = 50;
 
 /// The facet of the three vertices that end at `vertices`, as a polygon.
 void collect_facet(PolygonCollector* polygons, std::uint64_t vertices, std::uint64_t where) {
-  if (!polygons) return;
+  if (!polygons) {
+    return;
+  }
   for (std::uint64_t v = vertices - 3; v < vertices; ++v) {
     polygons->corner(static_cast<std::uint32_t>(v), PolygonMesh::no_texcoord, where);
   }
@@ -27,7 +29,9 @@ void collect_facet(PolygonCollector* polygons, std::uint64_t vertices, std::uint
 std::string lower(std::string_view word) {
   std::string text(word);
   for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c >= 'A' && c <= 'Z') {
+      c = static_cast<char>(c - 'A' + 'a');
+    }
   }
   return text;
 }
@@ -62,15 +66,19 @@ Result<std::size_t> TextStlScanner::scan(std::string_view input, bool last, Draf
     do {
       const std::size_t next = end < input.size() ? line_end(input, end, last) : npos;
       if (next == npos) {
-        if (last) return failure({"the file ends inside a facet"});
+        if (last) {
+          return failure({"the file ends inside a facet"});
+        }
         draft.rewind(mark);
         line_ = first_line;
         vertices_ = vertices_before;
         in_facet_ = false;
         return at;
       }
-      const Status status = scan_line(input.substr(end, next - end), draft);
-      if (!status.ok()) return status;
+      Status status = scan_line(input.substr(end, next - end), draft);
+      if (!status.ok()) {
+        return status;
+      }
       ++line_;
       end = next;
     } while (in_facet_);
@@ -83,13 +91,21 @@ Status TextStlScanner::scan_line(std::string_view line, Draft& draft) {
   std::size_t at = 0;
   const std::string_view word = next_word(line, at);
   const std::string keyword = lower(word);
-  if (!in_facet_ && keyword == "facet") return scan_facet_line(line, at, draft);
-  if (in_facet_ && keyword == "vertex") return scan_vertex(line, at, draft);
+  if (!in_facet_ && keyword == "facet") {
+    return scan_facet_line(line, at, draft);
+  }
+  if (in_facet_ && keyword == "vertex") {
+    return scan_vertex(line, at, draft);
+  }
   draft.keep(line);
-  if (in_facet_ && keyword == "endfacet") return end_facet();
+  if (in_facet_ && keyword == "endfacet") {
+    return end_facet();
+  }
   const bool known = in_facet_ ? keyword == "outer" || keyword == "endloop"
                                : keyword == "solid" || keyword == "endsolid";
-  if (known || keyword.empty()) return {};
+  if (known || keyword.empty()) {
+    return {};
+  }
   return failure(
       {"found ", quoted(word), "; expected ",
        (in_facet_ ? "outer loop, vertex, endloop or endfacet" : "solid, facet or endsolid")});
@@ -100,11 +116,15 @@ Status TextStlScanner::scan_facet_line(std::string_view line, std::size_t at, Dr
   in_facet_ = true;
   corners_ = 0;
   const std::string_view normal = next_word(line, at);
-  if (lower(normal) != "normal") return failure({"found ", quoted(normal), "; expected normal"});
+  if (lower(normal) != "normal") {
+    return failure({"found ", quoted(normal), "; expected normal"});
+  }
   std::size_t kept = 0;
   for (int component = 0; component < 3; ++component) {
     const std::string_view word = next_word(line, at);
-    if (word.empty()) return failure({"expected 3 numbers of a normal"});
+    if (word.empty()) {
+      return failure({"expected 3 numbers of a normal"});
+    }
     draft.keep(line.substr(kept, at - word.size() - kept));
     draft.facet_normal(component);
     kept = at;
@@ -116,7 +136,7 @@ Status TextStlScanner::scan_facet_line(std::string_view line, std::size_t at, Dr
 Status TextStlScanner::scan_vertex(std::string_view line, std::size_t at, Draft& draft) {
   std::size_t kept = 0;
   ++corners_;
-  const Status status = take_point(line, kept, at, draft);
+  Status status = take_point(line, kept, at, draft);
   draft.keep(line.substr(kept));
   return status;
 }
@@ -155,7 +175,9 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
   std::size_t at = 0;
   if (offset_ == 0) {
     if (input.size() < header_size) {
-      if (!last) return std::size_t{0};
+      if (!last) {
+        return std::size_t{0};
+      }
       return failure(
           {"the file ends inside the header of a binary STL (", input.size(), " of 84 bytes)"});
     }
@@ -164,8 +186,10 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
     offset_ = at = header_size;
   }
   for (; facets_ < count_ && input.size() - at >= facet_size && !draft.full(); at += facet_size) {
-    const Status status = scan_facet(input.substr(at, facet_size), draft);
-    if (!status.ok()) return status;
+    Status status = scan_facet(input.substr(at, facet_size), draft);
+    if (!status.ok()) {
+      return status;
+    }
     offset_ += facet_size;
     ++facets_;
   }
@@ -174,12 +198,16 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
     offset_ += input.size() - at;
     return input.size();
   }
-  if (last && input.size() - at < facet_size) return ends_early();
+  if (last && input.size() - at < facet_size) {
+    return ends_early();
+  }
   return at;
 }
 
 Status BinaryStlScanner::scan_facet(std::string_view facet, Draft& draft) {
-  for (int component = 0; component < 3; ++component) draft.facet_normal(component);
+  for (int component = 0; component < 3; ++component) {
+    draft.facet_normal(component);
+  }
   for (std::size_t i = 12; i < 48; i += 4) {
     const float value = load<float>(&facet[i], false);
     if (!std::isfinite(value)) {
@@ -201,7 +229,9 @@ class StlScanner final : public Scanner {
   Result<std::size_t> scan(std::string_view input, bool last, Draft& draft) override {
     constexpr std::size_t enough = 512;
     if (!actual_) {
-      if (input.size() < enough && !last) return std::size_t{0};
+      if (input.size() < enough && !last) {
+        return std::size_t{0};
+      }
       choose(input.substr(0, enough));
     }
     return actual_->scan(input, last, draft);
@@ -239,15 +269,23 @@ Status write_stl(std::span<const double> positions, std::span<const std::uint32_
   out.resize(out.size() + 80);
   store(out, static_cast<std::uint32_t>(triangles.size() / 3), false);
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    for (int component = 0; component < 3; ++component) facets.facet_normal(component);
+    for (int component = 0; component < 3; ++component) {
+      facets.facet_normal(component);
+    }
     for (std::size_t corner = t; corner < t + 3; ++corner) {
       const double* position = &positions[3 * std::size_t{triangles[corner]}];
-      for (std::size_t axis = 0; axis < 3; ++axis) facets.coordinate(position[axis]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        facets.coordinate(position[axis]);
+      }
     }
     facets.keep(std::string_view("\0\0", 2));
-    if (!facets.full() && t + 3 < triangles.size()) continue;
-    const Status status = facets.emit(facets.points(), out);
-    if (!status.ok()) return status;
+    if (!facets.full() && t + 3 < triangles.size()) {
+      continue;
+    }
+    Status status = facets.emit(facets.points(), out);
+    if (!status.ok()) {
+      return status;
+    }
     facets.clear();
   }
   return {};

@@ -65,12 +65,18 @@ void Triangulator::add(std::size_t a, std::size_t b, std::size_t c) {
 
 void Triangulator::add_polygon(std::size_t corners) {
   left_.resize(corners);
-  for (std::size_t i = 0; i < corners; ++i) left_[i] = i;
+  for (std::size_t i = 0; i < corners; ++i) {
+    left_[i] = i;
+  }
   if (corners > 3) {
     project(corners);
-    if (!is_strictly_convex()) clip_ears();
+    if (!is_strictly_convex()) {
+      clip_ears();
+    }
   }
-  for (std::size_t i = 1; i + 1 < left_.size(); ++i) add(left_[0], left_[i], left_[i + 1]);
+  for (std::size_t i = 1; i + 1 < left_.size(); ++i) {
+    add(left_[0], left_[i], left_[i + 1]);
+  }
 }
 
 /// Along the axis nearest to the area vector (Newell), so that the polygon turns left.
@@ -89,11 +95,15 @@ void Triangulator::project(std::size_t corners) {
   }
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (std::abs(normal[k]) > std::abs(normal[axis])) axis = k;
+    if (std::abs(normal[k]) > std::abs(normal[axis])) {
+      axis = k;
+    }
   }
   std::size_t u = (axis + 1) % 3;
   std::size_t v = (axis + 2) % 3;
-  if (normal[axis] < 0) std::swap(u, v);
+  if (normal[axis] < 0) {
+    std::swap(u, v);
+  }
   plane_.clear();
   for (std::size_t i = 0; i < corners; ++i) {
     const double* p = position(i);
@@ -103,7 +113,9 @@ void Triangulator::project(std::size_t corners) {
 
 bool Triangulator::is_strictly_convex() const {
   for (std::size_t i = 0; i < left_.size(); ++i) {
-    if (!(area_at(i) > 0)) return false;
+    if (!(area_at(i) > 0)) {
+      return false;
+    }
   }
   return true;
 }
@@ -116,7 +128,9 @@ void Triangulator::clip_ears() {
   while (left_.size() > 3 && budget_ > 0) {
     const bool ear = is_ear(at);
     if (!ear) {
-      if (tried == 0 || area_at(at) > area_at(best)) best = at;
+      if (tried == 0 || area_at(at) > area_at(best)) {
+        best = at;
+      }
       if (++tried < left_.size()) {
         at = after(at);
         continue;
@@ -141,13 +155,21 @@ bool Triangulator::is_ear(std::size_t at) {
   const Planar& b = plane_[left_[at]];
   const Planar& c = plane_[left_[next]];
   --budget_;
-  if (!(area(a, b, c) > 0)) return false;
+  if (!(area(a, b, c) > 0)) {
+    return false;
+  }
   budget_ -= static_cast<std::int64_t>(left_.size());
   for (std::size_t i = 0; i < left_.size(); ++i) {
-    if (i == previous || i == at || i == next) continue;
+    if (i == previous || i == at || i == next) {
+      continue;
+    }
     const Planar& p = plane_[left_[i]];
-    if (p == a || p == b || p == c) continue;
-    if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
+    if (p == a || p == b || p == c) {
+      continue;
+    }
+    if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) {
+      return false;
+    }
   }
   return true;
 }

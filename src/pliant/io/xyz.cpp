@@ -17,8 +17,10 @@ class XyzScanner final : public LineScanner {
     const std::string_view first = next_word(line, at);
     if (!first.empty() && !first.starts_with('#') && !first.starts_with("//")) {
       at = 0;
-      const Status status = take_point(line, kept, at, draft);
-      if (!status.ok()) return status;
+      Status status = take_point(line, kept, at, draft);
+      if (!status.ok()) {
+        return status;
+      }
     }
     draft.keep(line.substr(kept));
     return {};
