@@ -20,12 +20,12 @@ async function measure(title, command, args) {
 /** Names in the order of the native run, then what only WASM measured. */
 function merge(native, wasm) {
   return [...new Set([...native.keys(), ...wasm.keys()])].map((name) => {
-    const pair = { name, native: native.get(name) ?? null, wasm: wasm.get(name) ?? null };
-    return { ...pair, wasmOverNative: pair.native && pair.wasm ? pair.wasm.ms / pair.native.ms : null };
+    const [n, w] = [native.get(name), wasm.get(name)];
+    return { name, native: n, wasm: w, wasmOverNative: w?.ms / n?.ms, wasmOverNativeYardstick: w?.ms / n?.yardstick };
   });
 }
 
-const show = (value, digits) => (typeof value === "number" ? value.toFixed(digits) : value ?? "-");
+const show = (value, digits) => (Number.isFinite(value) ? value.toFixed(digits) : "-");
 
 function printTable(rows) {
   const columns = [
@@ -33,9 +33,9 @@ function printTable(rows) {
     ["native ms", (row) => show(row.native?.ms, 3)],
     ["WASM ms", (row) => show(row.wasm?.ms, 3)],
     ["WASM / native", (row) => show(row.wasmOverNative, 2)],
-    ["yardstick", (row) => show((row.wasm ?? row.native).yardstick, 3)],
     ["native / yardstick", (row) => show(row.native?.ratio, 3)],
     ["WASM / yardstick", (row) => show(row.wasm?.ratio, 3)],
+    ["WASM / native yardstick", (row) => show(row.wasmOverNativeYardstick, 3)],
   ];
   const cells = [columns.map(([title]) => title), ...rows.map((row) => columns.map(([, cell]) => cell(row)))];
   const widths = columns.map((_, c) => Math.max(...cells.map((row) => row[c].length)));
