@@ -63,14 +63,17 @@ export class Glb {
     const unused = new Set<Accessor>();
     for (const part of this.#parts) {
       const moved = this.#accessor(localPositions(part, positions));
-      const turned = normals && this.#accessor(localNormals(part, normals));
+      const lit = part.primitives.filter((primitive) => primitive.getAttribute("NORMAL"));
       for (const primitive of part.primitives) {
         for (const name of ["POSITION", "NORMAL", "TANGENT"]) {
           const old = primitive.getAttribute(name);
           if (old) unused.add(old);
         }
         primitive.setAttribute("POSITION", moved).setAttribute("TANGENT", null);
-        if (turned && primitive.getAttribute("NORMAL")) primitive.setAttribute("NORMAL", turned);
+      }
+      if (normals && lit.length > 0) {
+        const turned = this.#accessor(localNormals(part, normals));
+        for (const primitive of lit) primitive.setAttribute("NORMAL", turned);
       }
     }
     const root = this.#document.getRoot();
