@@ -7,8 +7,10 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "pliant/linalg/svd3.h"
 
 namespace pliant {
 namespace {
@@ -19,18 +21,19 @@ constexpr double least_skewness = 1e-9;  // of a third moment, in units of the l
 
 /// Rows: directions that move with the shape where it has such, else the input's axes.
 Eigen::Matrix3d intrinsic_frame(const Points& centered) {
-  const Eigen::Matrix3d covariance =
-      centered * centered.transpose() / static_cast<double>(centered.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const Eigen::Vector3d& variance = eigen.eigenvalues();
-  if (std::min(variance[1] - variance[0], variance[2] - variance[1]) <= least_gap * variance[2]) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& p : centered.colwise()) covariance += p * p.transpose();
+  covariance /= static_cast<double>(centered.cols());
+  const Svd3 eigen = svd3(covariance);
+  const Eigen::Vector3d& variance = eigen.values;
+  if (std::min(variance[0] - variance[1], variance[1] - variance[2]) <= least_gap * variance[0]) {
     return Eigen::Matrix3d::Identity();
   }
-  Eigen::Matrix3d axes = eigen.eigenvectors().transpose();
+  Eigen::Matrix3d axes = eigen.u.transpose();
   int signless = -1;
   for (int axis = 0; axis < 3; ++axis) {
     const double third_moment =
-        (axes.row(axis) * centered).array().cube().mean() / std::pow(variance[2], 1.5);
+        (axes.row(axis) * centered).array().cube().mean() / std::pow(variance[0], 1.5);
     if (std::abs(third_moment) > least_skewness) {
       axes.row(axis) *= third_moment > 0 ? 1 : -1;
     } else if (signless < 0) {
