@@ -6,7 +6,7 @@ import { PliantError } from "./errors.js";
 import { Handle } from "./handle.js";
 import { type DeformerOptions, type Method, type Options, readMethod, readOptions } from "./methods/index.js";
 import type { RawDeformer } from "./raw.js";
-import { Shape } from "./shape.js";
+import { type Shape, shapeFor } from "./shape.js";
 import { readTables, type State, toState, writeTables } from "./state.js";
 
 /** What one iteration did. */
@@ -64,7 +64,7 @@ export class Deformer {
   /** @internal */
   constructor(core: Core, shape: Shape, options: DeformerOptions) {
     const place = new Place("invalid-option", "options");
-    if (!(shape instanceof Shape)) new Place("invalid-option", "shape").fail(shape, "a Shape of this package");
+    shapeFor(core, shape);
     if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
     const extent = { count: shape.report.vertices, dimension: shape.dimension };
     this.shape = shape;

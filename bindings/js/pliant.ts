@@ -6,7 +6,7 @@ import { Deformer, readCallback, readSignal } from "./deformer.js";
 import type { DeformerOptions } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./quality.js";
 import type { EditOptions, EditResult, EditScript } from "./script/types.js";
-import { Shape, type ShapeInput } from "./shape.js";
+import { Shape, shapeFor, type ShapeInput } from "./shape.js";
 
 /** What `init` resolves to. */
 export class Pliant {
@@ -34,7 +34,7 @@ export class Pliant {
 
   /** Runs an edit script. Errors: invalid-script, not-solvable, too-large, aborted. */
   async edit(shape: Shape, script: EditScript, options: EditOptions = {}): Promise<EditResult> {
-    if (!(shape instanceof Shape)) new Place("invalid-option", "shape").fail(shape, "a Shape of this package");
+    shapeFor(this.#core, shape);
     const place = new Place("invalid-option", "options");
     const given = fields(place, options, ["signal", "onProgress"]);
     const signal = readSignal(place.at("signal"), given.signal);

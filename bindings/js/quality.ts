@@ -2,7 +2,7 @@
 
 import { coordinates, fields, flag, Place, toSpace } from "./check.js";
 import type { Core } from "./core.js";
-import { insideOf, Shape } from "./shape.js";
+import { insideOf, type Shape, shapeFor } from "./shape.js";
 
 export interface Quality {
   /** |l' / l - 1| over the edges. */
@@ -28,7 +28,7 @@ export interface MeasureOptions {
 }
 
 export function measure(core: Core, shape: Shape, positions: ArrayLike<number>, options: MeasureOptions = {}): Quality {
-  if (!(shape instanceof Shape)) new Place("invalid-option", "shape").fail(shape, "a Shape of this package");
+  shapeFor(core, shape);
   const place = new Place("invalid-option", "positions");
   const given = fields(new Place("invalid-option", "options"), options, ["intersections"]);
   const all = given.intersections === undefined || flag(new Place("invalid-option", "options.intersections"), given.intersections);

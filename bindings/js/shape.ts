@@ -47,6 +47,13 @@ const maxTriangles = 4 * maxVertices;
 /** The inside of a shape; not for callers of the package. */
 export let insideOf: (shape: Shape) => ShapeInside;
 
+/** A shape for a call of the library on `core`. Errors: invalid-option, disposed. */
+export function shapeFor(core: Core, value: unknown): Shape {
+  if (!(value instanceof Shape)) return new Place("invalid-option", "shape").fail(value, "a Shape of this package");
+  if (insideOf(value).owned.core === core) return value;
+  throw new PliantError("disposed", "this shape belongs to a library that has stopped; expected one of this library");
+}
+
 /** A shape at rest. It does not change; deformers are built over it and live on without it. */
 export class Shape {
   readonly report: Readonly<ShapeReport>;

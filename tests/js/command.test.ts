@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Folder, objPositions } from "./support/command.js";
 import { carried, type GraphState, weights } from "./support/oracle.js";
-import { installed, pliant } from "./support/package.js";
+import { consumer, installed, pliant } from "./support/package.js";
 import { barObj, cloud } from "./support/shapes.js";
 
 const folder = new Folder();
@@ -132,6 +132,17 @@ describe("pliant deform", () => {
   it("is silent where there is no terminal", () => {
     expect(folder.run("deform", "bar.obj", "--script", "edit.json", "--out", "quiet.obj")).toEqual({ status: 0, out: "", err: "" });
     expect(folder.run("deform", "bar.obj", "--script", "edit.json", "--out", "quiet.obj", "--quiet")).toEqual({ status: 0, out: "", err: "" });
+  });
+
+  it("shows its progress on a terminal, unless told not to", () => {
+    // script(1) gives the command a terminal.
+    const command = `node ${join(consumer, "node_modules/.bin/pliant")} deform bar.obj --script edit.json --out quiet.obj`;
+    const shown = (line: string) => spawnSync("script", ["-qec", line, "/dev/null"], { cwd: folder.path, encoding: "utf8" });
+    const { status, stdout } = shown(command);
+    expect(status).toBe(0);
+    expect(stdout).toMatch(/\r\[#*\.*\] iteration \d+, energy/);
+    expect(stdout.endsWith("\r\x1b[K")).toBe(true);
+    expect(shown(`${command} --quiet`).stdout).toBe("");
   });
 
   it("may write over its input", () => {

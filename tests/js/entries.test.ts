@@ -58,6 +58,12 @@ describe("what is packed", () => {
 });
 
 describe("types", () => {
+  it("fit between sources, tests and page", () => {
+    const root = join(import.meta.dirname, "../..");
+    const { stdout } = spawnSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", root], { encoding: "utf8" });
+    expect(stdout).toBe("");
+  });
+
   it("are complete for an application that checks its libraries too", () => {
     const source = `
       import { init, type EditScript, PliantError } from "pliant";
@@ -110,6 +116,52 @@ describe("init", () => {
     expect(failure).toBeInstanceOf(fresh.PliantError);
     expect(failure).toMatchObject({ code: "invalid-option" });
     expect(await lifted(await fresh.init({ [name]: good[name as keyof typeof good] }))).toEqual(expected);
+  });
+});
+
+describe("memory", () => {
+  it("that is dropped without dispose comes back", () => {
+    // A hundred megabytes each: what is not given back would not fit.
+    const program = `
+      import { init } from "pliant";
+      const pliant = await init();
+      const positions = Float64Array.from({ length: 3_000_000 }, (_, i) => i);
+      for (let i = 0; i < 40; ++i) {
+        pliant.shape({ positions });
+        gc();
+        await new Promise((resolve) => setImmediate(resolve));
+      }
+      console.log("done");`;
+    expect(execFileSync(process.execPath, ["--expose-gc", "--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" })).toBe("done\n");
+  });
+
+  it("that runs out ends the library, and init starts another", async () => {
+    const fresh = (await import(/* @vite-ignore */ `${pathToFileURL(join(installed, "dist/inline.js")).href}?trap`)) as typeof entries.pliant;
+    const { instantiate } = WebAssembly;
+    let out = false;
+    const failing = (call: (...args: unknown[]) => unknown) => (...args: unknown[]) => {
+      if (out) throw new WebAssembly.RuntimeError("unreachable");
+      return call(...args);
+    };
+    // Every call from the glue into the module fails once memory is "out".
+    WebAssembly.instantiate = (async (module: WebAssembly.Module, imports: WebAssembly.Imports) => {
+      const { exports } = await instantiate(module, imports);
+      return { exports: Object.fromEntries(Object.entries(exports).map(([name, value]) => [name, typeof value === "function" ? failing(value as never) : value])) };
+    }) as never;
+    const first = await fresh.init();
+    WebAssembly.instantiate = instantiate;
+    const shape = first.shape(mesh);
+    const deformer = first.deformer(shape, options);
+    const state = deformer.state();
+    out = true;
+    const codeOf = (action: () => unknown) => { try { return action(); } catch (error) { return (error as { code: string }).code; } };
+    expect(codeOf(() => deformer.restore(state))).toBe("too-large");
+    out = false;
+    expect(codeOf(() => deformer.step())).toBe("too-large");
+    const second = await fresh.init();
+    expect(second).not.toBe(first);
+    expect(codeOf(() => second.deformer(shape, options))).toBe("disposed");
+    expect(await lifted(second)).toEqual(expected);
   });
 });
 
