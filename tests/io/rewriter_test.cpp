@@ -81,7 +81,7 @@ TEST_CASE("obj: every byte stays but the coordinates and the normals") {
         "usemtl red\ns 1\n"
         "f 1/1 2/2 3/3 4/4 # the quad\n"
         "v 1.25 \\\n  1.75 \\\r\n 2.25\n"
-        "f -1 1 -4\n"
+        "f -1 1 -4# 5//5\n"
         "\n"
         "l 1 2 3\n"
         "f 1 2 \\\n 3 5");

@@ -209,10 +209,11 @@ Status ObjScanner::read_texcoord(std::string_view line, std::size_t at) {
 }
 
 void ObjScanner::keep_without_normals(std::string_view line, std::size_t at, Draft& draft) {
+  const std::string_view words = without_comment(line);
   std::size_t kept = 0;
   while (true) {
-    const std::string_view word = next_word(line, at);
-    if (word.empty() || word.starts_with('#')) {
+    const std::string_view word = next_word(words, at);
+    if (word.empty()) {
       break;
     }
     const std::size_t first = word.find('/');
