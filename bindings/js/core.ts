@@ -31,10 +31,12 @@ export class Core {
   stageOnce<T>(doubles: ArrayLike<number>, integers: ArrayLike<number>, use: (scratch: RawScratch) => T): T {
     return this.call(() => {
       const scratch = new this.raw.Scratch();
-      fill(scratch, doubles, integers);
-      const result = use(scratch);
-      scratch.delete();
-      return result;
+      try {
+        fill(scratch, doubles, integers);
+        return use(scratch);
+      } finally {
+        scratch.delete();
+      }
     });
   }
 
@@ -54,8 +56,14 @@ export class Core {
 }
 
 function fill(scratch: RawScratch, doubles: ArrayLike<number>, integers: ArrayLike<number>): void {
-  scratch.doubles(doubles.length).set(doubles);
-  scratch.integers(integers.length).set(integers);
+  put(scratch.doubles(doubles.length), doubles);
+  put(scratch.integers(integers.length), integers);
+}
+
+/** Fills a view of staging memory, which is empty where memory does not suffice. Errors: too-large. */
+export function put(view: Float64Array | Int32Array | Uint8Array, values: ArrayLike<number>): void {
+  if (view.length < values.length) throw new PliantError("too-large", `${values.length} numbers do not fit in what is left of WASM memory`);
+  view.set(values);
 }
 
 /** An object in WASM memory and its life. */

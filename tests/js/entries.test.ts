@@ -121,12 +121,12 @@ describe("init", () => {
 
 describe("memory", () => {
   it("that is dropped without dispose comes back", () => {
-    // A hundred megabytes each: what is not given back would not fit.
+    // A hundred megabytes each: what is not given back would not fit in the two gigabytes there are.
     const program = `
       import { init } from "pliant";
       const pliant = await init();
-      const positions = Float64Array.from({ length: 3_000_000 }, (_, i) => i);
-      for (let i = 0; i < 40; ++i) {
+      const positions = Float64Array.from({ length: 9_000_000 }, (_, i) => i);
+      for (let i = 0; i < 24; ++i) {
         pliant.shape({ positions });
         gc();
         await new Promise((resolve) => setImmediate(resolve));
@@ -135,7 +135,22 @@ describe("memory", () => {
     expect(execFileSync(process.execPath, ["--expose-gc", "--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" })).toBe("done\n");
   });
 
-  it("that runs out ends the library, and init starts another", async () => {
+  it("that does not suffice for a shape is an error, and the library goes on", () => {
+    const program = `
+      import { init } from "pliant";
+      const pliant = await init();
+      const held = [];
+      const positions = Float64Array.from({ length: 9_000_000 }, (_, i) => i);
+      const codeOf = (action) => { try { action(); return "none"; } catch (error) { return error.code; } };
+      let code;
+      do code = codeOf(() => held.push(pliant.shape({ positions }))); while (code === "none");
+      for (const shape of held) shape.dispose();
+      console.log(code, held.length > 5, (await init()).shape({ positions }).report.vertices);`;
+    const out = execFileSync(process.execPath, ["--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" });
+    expect(out).toBe("too-large true 3000000\n");
+  });
+
+  it("that runs out under way ends the library, and init starts another", async () => {
     const fresh = (await import(/* @vite-ignore */ `${pathToFileURL(join(installed, "dist/inline.js")).href}?trap`)) as typeof entries.pliant;
     const { instantiate } = WebAssembly;
     let out = false;

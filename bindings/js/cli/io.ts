@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import createModule from "#wasm/pliant-io.mjs";
-import { accept } from "../core.js";
+import { accept, put } from "../core.js";
 import type { RawDocument, RawIoModule, RawRewriter, RawScratch } from "../raw.js";
 import { instantiate } from "../wasm.js";
 
@@ -37,7 +37,7 @@ export class ShapeDocument {
   /** Errors: parse-error, too-large. */
   static async read(format: string, bytes: Uint8Array): Promise<ShapeDocument> {
     const document = new ShapeDocument(await start());
-    document.#scratch.bytes(bytes.length).set(bytes);
+    put(document.#scratch.bytes(bytes.length), bytes);
     accept(document.#raw.read(format, document.#scratch));
     document.#scratch.bytes(0);
     return document;
@@ -47,12 +47,12 @@ export class ShapeDocument {
   static async from(mesh: Mesh): Promise<ShapeDocument> {
     const document = new ShapeDocument(await start());
     const scratch = document.#scratch;
-    scratch.doubles(mesh.positions.length).set(mesh.positions);
+    put(scratch.doubles(mesh.positions.length), mesh.positions);
     const polygons = packPolygons(mesh);
-    scratch.integers(polygons.length).set(polygons);
+    put(scratch.integers(polygons.length), polygons);
     accept(document.#raw.assign(scratch));
     if (mesh.texcoords.length === 0) return document;
-    scratch.doubles(mesh.texcoords.length).set(mesh.texcoords);
+    put(scratch.doubles(mesh.texcoords.length), mesh.texcoords);
     accept(document.#raw.assignTexcoords(scratch));
     return document;
   }
@@ -70,7 +70,7 @@ export class ShapeDocument {
 
   /** Errors: invalid-shape. */
   write(format: string, positions: Float64Array): Uint8Array {
-    this.#scratch.doubles(positions.length).set(positions);
+    put(this.#scratch.doubles(positions.length), positions);
     const { status, bytes } = this.#raw.write(format, this.#scratch);
     accept(status);
     return bytes.slice();
@@ -107,12 +107,12 @@ export class ShapeRewriter {
 
   /** The next piece of the file, none at the end; `change` gets the coordinates in it, three a point. Errors: parse-error, invalid-shape. */
   push(piece: Uint8Array, last: boolean, change: (points: Float64Array) => void): Uint8Array {
-    this.#scratch.bytes(piece.length).set(piece);
+    put(this.#scratch.bytes(piece.length), piece);
     const { status, points } = this.#raw.push(this.#scratch, last);
     accept(status);
     const moved = points.slice();
     if (moved.length > 0) change(moved);
-    this.#scratch.doubles(moved.length).set(moved);
+    put(this.#scratch.doubles(moved.length), moved);
     const written = this.#raw.emit(this.#scratch);
     accept(written.status);
     return written.bytes.slice();
