@@ -152,12 +152,18 @@ class BoundDeformer {
   }
   Counters counters() const { return deformer_->counters(); }
 
-  val positions() { return view_of_vertices(deformer_->point_positions()); }
+  val positions() {
+    floats_ = deformer_->positions().cast<float>();
+    return view_of_matrix(floats_);
+  }
   val positions64() {
     doubles_ = deformer_->positions();
     return view_of_matrix(doubles_);
   }
-  val normals() { return view_of_vertices(deformer_->point_normals()); }
+  val normals() {
+    floats_ = deformer_->normals().cast<float>();
+    return view_of_matrix(floats_);
+  }
   PointsValue transform_points(const Scratch& scratch) {
     auto carried = deformer_->transform_points(to_points(scratch.doubles()));
     if (!carried.ok()) return {to_value(carried.status())};
@@ -174,16 +180,6 @@ class BoundDeformer {
   StatusValue restore(const BoundState& bound) { return to_value(deformer_->restore(bound.state)); }
 
  private:
-  /// Scattered to the input's vertices and rounded in one pass: a page asks for them every frame.
-  val view_of_vertices(const Points& of_points) {
-    const std::vector<Index>& point_of_vertex = deformer_->shape().point_of_vertex();
-    floats_.resize(3, static_cast<Index>(point_of_vertex.size()));
-    for (Index v = 0; v < floats_.cols(); ++v) {
-      floats_.col(v) = of_points.col(point_of_vertex[v]).cast<float>();
-    }
-    return view_of_matrix(floats_);
-  }
-
   std::unique_ptr<Deformer> deformer_;
   EmbeddedGraph* refinable_ = nullptr;  ///< deformer_, where its method refines
   Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
