@@ -1,0 +1,46 @@
+// Material-aware edges (Material Aware Mesh Deformation; equation numbers are the paper's): every
+// edge keeps its length and its distance from the line between the two points across it.
+#pragma once
+
+#include <memory>
+
+#include "pliant/deformers/edge_material/options.h"
+#include "pliant/solve/local_global_deformer.h"
+
+namespace pliant {
+
+/// Open, closed and non-manifold meshes. Handles are exact. Deforms the surface, not space:
+/// transform_points is not_solvable.
+class EdgeMaterial final : public LocalGlobalDeformer {
+ public:
+  /// Errors: invalid_option; invalid_shape (no triangles).
+  static Result<std::unique_ptr<EdgeMaterial>> create(std::shared_ptr<const Shape> shape,
+                                                      const EdgeMaterialOptions& options);
+  ~EdgeMaterial() override;
+
+  /// Replaces the options of a living deformer; handles, targets and the deformation stay, the next
+  /// step goes on from there. Cost at that step: `p_stretch`, `p_bend` and `gravity`: nothing;
+  /// `stretch`, `lambda`, `bend` and `field`: one factorisation, no analysis. Errors:
+  /// invalid_option, not_solvable, too_large (from the field); then nothing changes.
+  Status set_options(const EdgeMaterialOptions& options);
+  const EdgeMaterialOptions& options() const;
+  /// The lambda in use (eq. 7).
+  double lambda() const;
+  /// The field in use, 3 x n, unit or zero, one vector an input vertex: for drawing it.
+  Points field() const;
+
+  /// Terms: `stretch` (weight lambda p_stretch), `bend` (weight mu p_bend), `gravity`.
+  Energy energy() const override;
+  /// edges/i, j, l, m (-1: no bending term), alpha, beta, rho, sigma, kappa; weights/lambda,
+  /// weights/mu, weights/pStretch, weights/pBend, weights/gravity; result; handles.
+  State save() const override;
+
+ private:
+  LocalModel& model() override;
+  struct Impl;
+  EdgeMaterial(std::shared_ptr<const Shape> shape, std::unique_ptr<Impl> impl);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pliant
