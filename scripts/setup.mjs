@@ -21,6 +21,10 @@ const debian = [
       existsSync("/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake"),
   },
   { name: "libeigen3-dev", for: build, present: () => existsSync("/usr/include/eigen3/Eigen/Core") },
+  {
+    name: "libboost-graph-dev", for: build,
+    present: () => existsSync("/usr/include/boost/graph/boykov_kolmogorov_max_flow.hpp"),
+  },
   { name: "libtinyobjloader-dev", for: build, present: () => existsSync("/usr/include/tiny_obj_loader.h") },
   { name: "libnanoflann-dev", for: build, present: () => existsSync("/usr/include/nanoflann.hpp") },
   { name: "g++", for: ["test", "bench"], present: () => onPath("g++") },

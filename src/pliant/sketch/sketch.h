@@ -1,0 +1,141 @@
+// Editing by two strokes: a reference over a limb, then where it should go. Kho and Garland,
+// "Sketching Mesh Deformations", I3D 2005; equation numbers are the paper's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pliant/core/status.h"
+#include "pliant/curves/profile.h"
+#include "pliant/geometry/shape.h"
+#include "pliant/sketch/camera.h"
+#include "pliant/sketch/refinement.h"
+#include "pliant/sketch/stroke.h"
+#include "pliant/solve/state.h"
+
+namespace pliant {
+
+struct SketchOptions {
+  /// Lines across the shape; what each cuts off the region becomes a rigid part (section 4.2.1).
+  /// Only the first and the last sample of each count.
+  std::vector<Stroke> partitions;
+  bool smooth = true;           ///< eq. 9 on the parameters
+  std::optional<Plane> mirror;  ///< the same gesture on the limb mirrored in this plane, too
+  /// A label a vertex of the input, as `Sketch::labels` gives them: the region is taken over, not
+  /// chosen. Empty: it is chosen. Not together with partitions or mirror.
+  std::vector<Index> labels;
+};
+
+/// The parameters of a pose, relative to the reference curve: what key poses store and blend.
+/// `turns` as many as the reference curve has inner nodes.
+struct SketchPose {
+  double heading = 0.0;                    ///< theta_g of eq. 5, radians
+  std::vector<double> turns;               ///< added to the exterior angles, radians
+  double length = 1.0;                     ///< target's over reference's
+  Profile twist = Profile::constant(0.0);  ///< radians over s
+  Profile scale = Profile::constant(1.0);  ///< of the offset from the joints, over s
+
+  /// Lengths and angles blended linearly, section 6.1. Both poses are of one sketch.
+  static SketchPose blend(const SketchPose& a, const SketchPose& b, double t);
+};
+
+/// Handles for any solver that should finish what the sketch began.
+struct SketchSeed {
+  std::vector<Index> fixed;     ///< vertices of the static part, ascending
+  std::vector<Index> vertices;  ///< rigid parts and spread samples of the region, ascending
+  Points targets;               ///< 3 x |vertices|
+};
+
+/// A shape, a region chosen by a stroke, and its pose. Choosing (create, redraw) analyses the
+/// region once; every call that poses costs one solve with what was prepared and one pass over the
+/// region, and allocates little: cheap enough for every event of a pen. Vertex ids are those of the
+/// input.
+class Sketch {
+ public:
+  /// Filters the reference stroke, lays it on the plane through the first hit, finds the region and
+  /// skins it. The pose is rest. Where the stroke starts is held, where it ends is moved.
+  /// Errors: invalid_shape (no triangles); invalid_option (a stroke that is too short or not
+  /// finite, shape behind the camera, a stroke that covers nothing, a partition that cuts nothing
+  /// off, mirrored regions that overlap, labels that do not fit).
+  static Result<std::unique_ptr<Sketch>> create(std::shared_ptr<const Shape> shape,
+                                                const Camera& camera, const Stroke& reference,
+                                                const SketchOptions& options = {});
+  ~Sketch();
+  Sketch(const Sketch&) = delete;
+  Sketch& operator=(const Sketch&) = delete;
+
+  /// Another reference stroke over the same region, maybe seen from elsewhere; the pose is rest.
+  /// Errors: those of create; nothing changes then.
+  Status redraw(const Camera& camera, const Stroke& reference);
+
+  // -- Posing: bend, twist and scale add up; each call replaces what it set before.
+  /// The target stroke (eq. 1-6), moved so that it starts where the reference does. May be called
+  /// with each sample while it is drawn. Errors: invalid_option.
+  Status bend(const Stroke& target);
+  /// Takes the bend back; twist and scale stay.
+  void unbend();
+  /// Right-handed about the stroke's direction, radians at its end, any size (eq. 7).
+  /// Errors: invalid_option (not finite; a node of the reference that meets the shape less than
+  /// twice).
+  Status twist(double radians);
+  /// F(s) on the offsets from the joints, above 0 (section 5.3). Errors as twist.
+  Status set_scale(const Profile& factor);
+  /// F(s) in eq. 8: turns the target by F(s) - s radians a unit of s. identity(): as drawn.
+  void set_turning(const Profile& offset);
+  /// F(s) on the twist's angle. identity(): evenly.
+  void set_twist_speed(const Profile& speed);
+  /// Eq. 9 on or off; the pose stays.
+  void set_smooth(bool smooth);
+  bool smooth() const;
+  /// Shows the way from rest (0) to the pose (1), section 6.1. Errors: invalid_option (outside).
+  Status set_morph(double t);
+  /// Back to rest, bit for bit; the region and smooth stay.
+  void reset();
+
+  /// The pose without morph, and back: key poses. Spline controls are contained, and return to
+  /// identity. Errors: invalid_option (another number of turns, not finite, scale not above 0;
+  /// twist or scale where there are no joints).
+  SketchPose pose() const;
+  Status set_pose(const SketchPose& pose);
+
+  // -- Refinement (section 5.5), for the pose as it is.
+  /// Splits edges that are stretched by more than 1.5 and bent by more than pi / 24, and again.
+  /// triangles: those of the input, 3 x m ids. Replaces an earlier refinement; later poses move the
+  /// added vertices too. Errors: invalid_shape (ids), too_large (beyond max_added).
+  Status refine(std::span<const std::uint32_t> triangles, Index max_added = 1'000'000);
+  void unrefine();
+  /// nullptr without one.
+  const Refinement* refinement() const;
+
+  // -- Results.
+  const Shape& shape() const;
+  /// 0 static, 1 region, 2.. rigid parts; one a vertex of the input.
+  std::vector<Index> labels() const;
+  /// Normalised arc length of every vertex: as skinned, or smoothed; that of its virtual vertex in
+  /// a rigid part, 0 in the static one.
+  std::vector<double> parameters() const;
+  /// Curves in space, 3 x nodes; the target's at the current morph.
+  Points reference() const;
+  Points target() const;
+  /// 3 x (n + added) positions, and at rest.
+  Points positions() const;
+  Points rest() const;
+  /// 3 x (n + added) unit normals.
+  Points normals() const;
+  /// Targets for another solver: rigid parts whole, of the region vertices no closer to one another
+  /// than `spacing` diagonals (at least 0).
+  SketchSeed seed(double spacing = 0.05) const;
+  /// The tables of the contract, section 3; see sketch/save.cpp for those of twist, scale and
+  /// mirror.
+  State save() const;
+
+ private:
+  struct Impl;
+  explicit Sketch(std::unique_ptr<Impl> impl);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,107 @@
+#include "pliant/sketch/stroke.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <Eigen/LU>
+
+namespace pliant {
+namespace {
+
+constexpr double reach = 8.0;          // pixels to each side that the average takes in
+constexpr double reach_share = 0.125;  // of a short stroke's length
+constexpr double max_pixel = 1e6;
+constexpr Index max_samples = 8000;
+
+/// The value at `center` of the parabola fitted to the samples from `first` to `last`, near ones
+/// counting more.
+Eigen::Vector2d smoothed_sample(const Polyline& line, Index first, Index last, Index center,
+                                double half_width) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  for (Index i = first; i <= last; ++i) {
+    const double x = (i - center) / half_width;
+    const double weight = 1.0 - x * x;
+    const Eigen::Vector3d basis(1.0, x, x * x);
+    normal += weight * basis * basis.transpose();
+    right += weight * basis * (line.col(i) - line.col(center)).transpose();
+  }
+  const Eigen::Matrix3d inverse = normal.inverse();
+  return line.col(center) + (inverse.row(0) * right).transpose();
+}
+
+Polyline averaged(const Polyline& line, double spacing) {
+  const Index n = static_cast<Index>(line.cols());
+  const double length = spacing * (n - 1);
+  const Index k = std::max<Index>(
+      2, static_cast<Index>(std::lround(std::min(reach, reach_share * length) / spacing)));
+  Polyline result(2, n);
+  for (Index i = 0; i < n; ++i) {
+    result.col(i) =
+        smoothed_sample(line, std::max<Index>(0, i - k), std::min(n - 1, i + k), i, k + 1.0);
+  }
+  return result;
+}
+
+/// `samples` points at equal distances along the line.
+Polyline dense(const Polyline& line, Index samples, double length) {
+  Polyline result(2, samples);
+  Index k = 0;
+  double before = 0.0;  // length up to line.col(k)
+  for (Index i = 0; i < samples; ++i) {
+    const double place = length * i / (samples - 1);
+    double segment = (line.col(k + 1) - line.col(k)).norm();
+    while (k + 2 < line.cols() && before + segment < place) {
+      before += segment;
+      ++k;
+      segment = (line.col(k + 1) - line.col(k)).norm();
+    }
+    const double share = segment > 0.0 ? std::clamp((place - before) / segment, 0.0, 1.0) : 0.0;
+    result.col(i) = (1.0 - share) * line.col(k) + share * line.col(k + 1);
+  }
+  return result;
+}
+
+}  // namespace
+
+Status check_stroke(const Stroke& stroke, const char* argument) {
+  const std::string name(argument);
+  if (stroke.cols() < 2) {
+    return {ErrorCode::invalid_option,
+            name + " has " + std::to_string(stroke.cols()) + " samples; expected at least 2"};
+  }
+  for (Index i = 0; i < stroke.cols(); ++i) {
+    // Written so that NaN fails too.
+    if (!(stroke.col(i).cwiseAbs().maxCoeff() <= max_pixel) || stroke.col(i).hasNaN()) {
+      return {ErrorCode::invalid_option,
+              name + "[" + std::to_string(i) + "] is not a pixel; expected two numbers up to 1e6"};
+    }
+  }
+  const double extent = (stroke.rowwise().maxCoeff() - stroke.rowwise().minCoeff()).eval().norm();
+  if (extent < min_stroke_segment) {
+    char text[120];
+    std::snprintf(text, sizeof text, " spans %.3g pixels; expected at least %g", extent,
+                  min_stroke_segment);
+    return {ErrorCode::invalid_option, name + text};
+  }
+  return {};
+}
+
+Index nodes_for(const Stroke& stroke) {
+  const double segments = length_of(stroke) / min_stroke_segment;
+  return static_cast<Index>(std::clamp(segments + 1.0, static_cast<double>(min_stroke_nodes),
+                                       static_cast<double>(max_stroke_nodes)));
+}
+
+Stroke filtered(const Stroke& stroke, Index nodes) {
+  const double length = length_of(stroke);
+  // About one sample a pixel, so that the average weighs the stroke, not the pen's speed.
+  const Index samples = static_cast<Index>(
+      std::clamp(std::ceil(length), 4.0 * nodes, static_cast<double>(max_samples)));
+  const double spacing = length / (samples - 1);
+  return resampled(averaged(dense(stroke, samples, length), spacing), nodes);
+}
+
+}  // namespace pliant
