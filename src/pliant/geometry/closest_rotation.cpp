@@ -28,6 +28,17 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& matrix) {
   return u * svd.v.transpose();
 }
 
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+}
+
+Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
 RigidMotion fit_rigid_motion(const Points& from, const Points& to) {
   const Eigen::Vector3d from_center = from.rowwise().mean(), to_center = to.rowwise().mean();
   const Points a = from.colwise() - from_center, b = to.colwise() - to_center;

@@ -111,8 +111,9 @@ Status Deformer::move_handle(HandleId id, const Motion& motion) {
   if (!(motion.axis.norm() > 0.0)) {
     return invalid_handle("rotate.axis is the zero vector; expected a direction");
   }
+  const Eigen::Affine3d map = motion.map();
   Points targets(3, handle->rest.cols());
-  for (Index i = 0; i < targets.cols(); ++i) targets.col(i) = motion.apply(handle->rest.col(i));
+  for (Index i = 0; i < targets.cols(); ++i) targets.col(i) = map * handle->rest.col(i);
   if (!targets.allFinite())
     return invalid_handle("the motion takes vertices out of range; expected finite numbers");
   handle->targets = std::move(targets);

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -20,8 +22,14 @@ struct Motion {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
-  Eigen::Vector3d apply(const Eigen::Vector3d& p) const;
+  /// The motion as one map of space.
+  Eigen::Affine3d map() const;
+  Eigen::Vector3d apply(const Eigen::Vector3d& p) const { return map() * p; }
 };
+
+/// Turn from one motion to another about the same axis, axis times angle, of any size; zero where
+/// they do not share one or the earlier one is not known.
+Eigen::Vector3d turn_between(const std::optional<Motion>& before, const Motion& after);
 
 /// One set of vertices and where it should go. Points, not input vertices: copies at one position
 /// are one point, the first input vertex stands for all.

@@ -4,6 +4,8 @@
 // do to the minimum passes through the gradient only.
 #pragma once
 
+#include <vector>
+
 #include "pliant/core/types.h"
 #include "pliant/linalg/block_matrix.h"
 
@@ -26,6 +28,9 @@ class LocalModel {
   /// `from` by the turns Q (one a point) as well as the constraints allow.
   virtual void turned_gradient(const Points& from, const Rotations& turns, const Points& x,
                                Points& half_gradient) const = 0;
+  /// Which points belong to parts that something holds; before the first evaluation, and again when
+  /// constraints change.
+  virtual void set_anchored(const std::vector<bool>& anchored) { (void)anchored; }
   /// A stiffness of the size of the energy's second derivatives: 1 for weights without a unit.
   virtual double stiffness() const = 0;
 };

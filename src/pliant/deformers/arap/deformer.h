@@ -32,7 +32,7 @@ class Arap final : public LocalGlobalDeformer {
   State save() const override;
 
  private:
-  LocalModel& model() override;
+  LocalModel& model() const override;
   struct Impl;
   Arap(std::shared_ptr<const Shape> shape, std::unique_ptr<Impl> impl);
 

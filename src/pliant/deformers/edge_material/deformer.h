@@ -36,7 +36,7 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   State save() const override;
 
  private:
-  LocalModel& model() override;
+  LocalModel& model() const override;
   struct Impl;
   EdgeMaterial(std::shared_ptr<const Shape> shape, std::unique_ptr<Impl> impl);
 

@@ -83,16 +83,6 @@ Influences rows_of(const Influences& influences, const std::vector<Index>& rows)
   return some;
 }
 
-/// Turn from one motion to another about the same axis; zero where they do not share one.
-Eigen::Vector3d turn_between(const std::optional<Motion>& before, const Motion& after) {
-  const Eigen::Vector3d axis = after.axis.normalized();
-  if (!before) return Eigen::Vector3d::Zero();
-  if (before->angle == 0.0) return after.angle * axis;
-  const double along = before->axis.normalized().dot(axis);
-  if (std::abs(along) < 1.0 - 1e-9) return Eigen::Vector3d::Zero();
-  return (after.angle - std::copysign(before->angle, along * before->angle)) * axis;
-}
-
 /// Every node that influences a fixed point leaves the unknowns.
 std::vector<bool> frozen_nodes(const DeformationGraph& graph,
                                const std::vector<Index>& fixed_points) {

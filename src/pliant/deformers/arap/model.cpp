@@ -1,0 +1,199 @@
+#include "pliant/deformers/arap/model.h"
+
+#include <algorithm>
+
+#include "pliant/deformers/arap/rotations.h"
+#include "pliant/geometry/cotangent.h"
+
+namespace pliant::arap {
+namespace {
+
+/// Every edge weighs at least this in the matrix, which is a metric: an edge whose cotangents
+/// cancel must not let a point float. The energy does not know it.
+constexpr double kLeastMetric = 1e-6;
+
+using ConstMatrix = Eigen::Map<const Eigen::Matrix3d>;
+
+Eigen::Vector3d laplacian(const std::vector<std::pair<Index, double>>& entries, Index point,
+                          const Points& x) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [neighbour, weight] : entries) sum += weight * (x.col(point) - x.col(neighbour));
+  return sum;
+}
+
+/// The corner of a triangle that is neither a nor b.
+int corner_across(const Triangles& triangles, Index t, Index a, Index b) {
+  int c = 0;
+  while (triangles(c, t) == a || triangles(c, t) == b) ++c;
+  return c;
+}
+
+}  // namespace
+
+ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
+    : rest_(shape.points()), planar_(shape.dimension() == 2) {
+  const Triangles& triangles = shape.triangles();
+  const Points cotangents = half_cotangents(rest_, triangles);
+  const EdgeTable table = unique_edges(triangles, static_cast<Index>(rest_.cols()));
+  const bool rims = options.energy == ArapEnergy::spokes_and_rims;
+  edges_ = table.ends;
+  first_cell_.push_back(0);
+  for (Index e = 0; e < table.size(); ++e) {
+    const auto [a, b] = edges_[e];
+    double weight = 0.0;
+    for (Index t : table.triangles.row(e))
+      weight += cotangents(corner_across(triangles, t, a, b), t);
+    if (!rims) weight = std::max(weight, 0.0);
+    cells_.push_back({a, weight});
+    cells_.push_back({b, weight});
+    for (Index t : table.triangles.row(e)) {
+      const int c = corner_across(triangles, t, a, b);
+      if (rims) cells_.push_back({triangles(c, t), cotangents(c, t)});
+    }
+    first_cell_.push_back(cells_.size());
+  }
+  if (options.smoothness > 0.0)
+    add_rows(shape, table, cotangents, options.smoothness * shape.diagonal());
+  covariances_.resize(9, rest_.cols());
+}
+
+void ArapModel::add_rows(const Shape& shape, const EdgeTable& table, const Points& cotangents,
+                         double length) {
+  const Triangles& triangles = shape.triangles();
+  std::vector<double> area(rest_.cols(), 0.0);
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    // Half cotangents times squared edges sum up to twice the area.
+    double twice = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      twice += cotangents(c, t) *
+               (rest_.col(triangles((c + 1) % 3, t)) - rest_.col(triangles((c + 2) % 3, t)))
+                   .squaredNorm();
+    }
+    for (Index corner : triangles.col(t)) area[corner] += twice / 6.0;
+  }
+  std::vector<std::vector<std::pair<Index, double>>> entries(rest_.cols());
+  std::vector<bool> inner(rest_.cols(), true);
+  for (Index e = 0; e < table.size(); ++e) {
+    const auto [a, b] = table.ends[e];
+    double weight = 0.0;
+    for (Index t : table.triangles.row(e))
+      weight += cotangents(corner_across(triangles, t, a, b), t);
+    entries[a].emplace_back(b, weight);
+    entries[b].emplace_back(a, weight);
+    if (table.triangles.row(e).size() == 1) inner[a] = inner[b] = false;
+  }
+  for (Index i = 0; i < rest_.cols(); ++i) {
+    if (!inner[i] || !(area[i] > 0.0)) continue;
+    rows_.push_back({i, length * length / area[i], std::move(entries[i])});
+  }
+}
+
+BlockMatrix ArapModel::matrix() const {
+  BlockMatrix matrix;
+  matrix.set_zero(1, static_cast<Index>(rest_.cols()), edges_);
+  auto add_edge = [&](std::size_t e, double weight) {
+    matrix.off_diagonal[e] -= weight;
+    for (Index end : edges_[e]) matrix.diagonal[end] += weight;
+  };
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    double weight = kLeastMetric;
+    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) weight += cells_[c].weight;
+    add_edge(e, weight);
+  }
+  if (rows_.empty()) return matrix;
+
+  // Products of the Laplacian's rows reach two edges far.
+  std::vector<std::pair<Edge, double>> far;
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    far.push_back({edges_[e], matrix.off_diagonal[e]});
+  for (const Row& row : rows_) {
+    std::vector<std::pair<Index, double>> entries = row.entries;
+    double sum = 0.0;
+    for (auto& [neighbour, weight] : entries) {
+      sum += weight;
+      weight = -weight;
+    }
+    entries.emplace_back(row.point, sum);
+    for (const auto& [a, u] : entries) {
+      matrix.diagonal[a] += row.weight * u * u;
+      for (const auto& [b, v] : entries) {
+        if (a < b) far.push_back({{a, b}, row.weight * u * v});
+      }
+    }
+  }
+  std::sort(far.begin(), far.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  matrix.edges.clear();
+  matrix.off_diagonal.clear();
+  for (const auto& [edge, value] : far) {
+    if (matrix.edges.empty() || matrix.edges.back() != edge) {
+      matrix.edges.push_back(edge);
+      matrix.off_diagonal.push_back(0.0);
+    }
+    matrix.off_diagonal.back() += value;
+  }
+  return matrix;
+}
+
+double ArapModel::evaluate(const Points& x, Points& half_gradient) {
+  covariances_.setZero();
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [a, b] = edges_[e];
+    const Eigen::Vector3d rest = rest_.col(a) - rest_.col(b), now = x.col(a) - x.col(b);
+    const Eigen::Matrix3d product = now * rest.transpose();
+    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
+      Eigen::Map<Eigen::Matrix3d>(covariances_.col(cells_[c].point).data()) +=
+          cells_[c].weight * product;
+    }
+  }
+  for (const Row& row : rows_) {
+    Eigen::Map<Eigen::Matrix3d>(covariances_.col(row.point).data()) +=
+        row.weight * laplacian(row.entries, row.point, x) *
+        laplacian(row.entries, row.point, rest_).transpose();
+  }
+  if (x == rest_) {
+    // Exactly at rest the energy is exactly zero.
+    rotations_ = Eigen::Matrix3d::Identity().reshaped().replicate(1, x.cols());
+  } else {
+    fit_rotations(covariances_, planar_, rotations_);
+  }
+  const auto parts = residuals(rest_, rotations_, x, half_gradient);
+  rigidity_ = parts[0];
+  smoothness_ = parts[1];
+  return rigidity_ + smoothness_;
+}
+
+void ArapModel::turned_gradient(const Points& from, const Rotations& turns, const Points& x,
+                                Points& half_gradient) const {
+  residuals(from, turns, x, half_gradient);
+}
+
+std::array<double, 2> ArapModel::residuals(const Points& from, const Rotations& turns,
+                                           const Points& x, Points& half_gradient) const {
+  half_gradient.setZero(3, x.cols());
+  double edges = 0.0, rows = 0.0;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [a, b] = edges_[e];
+    const Eigen::Vector3d before = from.col(a) - from.col(b), now = x.col(a) - x.col(b);
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
+      const Eigen::Vector3d d = now - ConstMatrix(turns.col(cells_[c].point).data()) * before;
+      edges += cells_[c].weight * d.squaredNorm();
+      force += cells_[c].weight * d;
+    }
+    half_gradient.col(a) += force;
+    half_gradient.col(b) -= force;
+  }
+  for (const Row& row : rows_) {
+    const Eigen::Vector3d d =
+        laplacian(row.entries, row.point, x) -
+        ConstMatrix(turns.col(row.point).data()) * laplacian(row.entries, row.point, from);
+    rows += row.weight * d.squaredNorm();
+    for (const auto& [neighbour, weight] : row.entries) {
+      half_gradient.col(row.point) += row.weight * weight * d;
+      half_gradient.col(neighbour) -= row.weight * weight * d;
+    }
+  }
+  return {edges, rows};
+}
+
+}  // namespace pliant::arap

@@ -1,0 +1,22 @@
+#include "pliant/deformers/arap/options.h"
+
+#include <cmath>
+#include <string>
+
+namespace pliant {
+
+Status ArapOptions::validate() const {
+  const auto invalid = [](const char* name, double value, const char* expected) {
+    return Status(ErrorCode::invalid_option,
+                  std::string(name) + " is " + std::to_string(value) + "; expected " + expected);
+  };
+  if (constraint_weight && !(std::isfinite(*constraint_weight) && *constraint_weight > 0.0)) {
+    return invalid("constraintWeight", *constraint_weight, "a finite number above 0");
+  }
+  if (!(smoothness >= 0.0 && smoothness <= 1.0)) {
+    return invalid("smoothness", smoothness, "a part of the diagonal, 0 to 1");
+  }
+  return {};
+}
+
+}  // namespace pliant

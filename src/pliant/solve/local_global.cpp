@@ -1,0 +1,145 @@
+#include "pliant/solve/local_global.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+/// A step must lower the energy by this part of what its slope promises (Armijo).
+constexpr double kSufficient = 1e-4;
+constexpr int kMaxHalvings = 40;
+
+}  // namespace
+
+Status LocalGlobal::set_up(const BlockMatrix& matrix, std::vector<bool> held) {
+  free_of_point_.assign(held.size(), -1);
+  point_of_free_.clear();
+  for (Index p = 0; p < matrix.nodes; ++p) {
+    if (held[p]) continue;
+    free_of_point_[p] = free_count();
+    point_of_free_.push_back(p);
+  }
+  evaluated_ = false;
+  for (Vector* v : {&gradient_, &direction_, &previous_, &step_}) v->setZero(unknowns());
+  memory_.reset(unknowns());
+  if (free_count() == 0) return {};
+  const BlockMatrix system = reduced(matrix);
+  if (Status s = factor_.analyze(system); !s.ok()) return s;
+  ++analyses_;
+  ++factorizations_;
+  return factor_.factorize(system);
+}
+
+Status LocalGlobal::refactorize(const BlockMatrix& matrix) {
+  evaluated_ = false;
+  memory_.clear();
+  if (free_count() == 0) return {};
+  ++factorizations_;
+  return factor_.factorize(reduced(matrix));
+}
+
+BlockMatrix LocalGlobal::reduced(const BlockMatrix& matrix) {
+  BlockMatrix system;
+  std::vector<Edge> edges;
+  std::vector<double> values;
+  coupling_.clear();
+  for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
+    const auto [a, b] = matrix.edges[e];
+    const Index i = free_of_point_[a], j = free_of_point_[b];
+    if (i >= 0 && j >= 0) {  // renumbering keeps the order
+      edges.push_back({i, j});
+      values.push_back(matrix.off_diagonal[e]);
+    } else if (i >= 0 || j >= 0) {
+      coupling_.push_back({i >= 0 ? Edge{i, b} : Edge{j, a}, matrix.off_diagonal[e]});
+    }
+  }
+  system.set_zero(1, free_count(), std::move(edges));
+  system.off_diagonal = std::move(values);
+  for (Index i = 0; i < free_count(); ++i) system.diagonal[i] = matrix.diagonal[point_of_free_[i]];
+  return system;
+}
+
+void LocalGlobal::gather(const Points& values, Vector& unknowns) const {
+  const Index n = free_count();
+  for (Index i = 0; i < n; ++i) {
+    for (int a = 0; a < 3; ++a) unknowns[a * n + i] = values(a, point_of_free_[i]);
+  }
+}
+
+void LocalGlobal::move(const Points& from, double alpha, const Vector& direction,
+                       Points& to) const {
+  const Index n = free_count();
+  to = from;
+  for (Index i = 0; i < n; ++i) {
+    for (int a = 0; a < 3; ++a) to(a, point_of_free_[i]) += alpha * direction[a * n + i];
+  }
+}
+
+void LocalGlobal::extend(Points& values) {
+  const Index n = free_count();
+  if (n == 0) return;
+  direction_.setZero();
+  for (const auto& [ends, value] : coupling_) {
+    for (int a = 0; a < 3; ++a) direction_[a * n + ends[0]] -= value * values(a, ends[1]);
+  }
+  factor_.solve(direction_.data(), 3);
+  for (Index i = 0; i < n; ++i) {
+    for (int a = 0; a < 3; ++a) values(a, point_of_free_[i]) = direction_[a * n + i];
+  }
+}
+
+void LocalGlobal::relax(const Points& half_gradient, Points& x) {
+  if (free_count() == 0) return;
+  gather(half_gradient, direction_);
+  factor_.solve(direction_.data(), 3);
+  move(Points(x), -1.0, direction_, x);
+}
+
+LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tolerance,
+                                       double diagonal, double noise) {
+  if (!evaluated_) {
+    energy_ = model.evaluate(x, half_gradient_);
+    model.accept();
+    gather(half_gradient_, gradient_);
+    evaluated_ = true;
+  }
+  if (free_count() == 0) return {false, true};
+  const auto find_direction = [&] {
+    memory_.direction(
+        gradient_, [this](Vector& d) { factor_.solve(d.data(), 3); }, direction_);
+    return 2.0 * gradient_.dot(direction_);
+  };
+  double slope = find_direction();
+  if (!(slope < 0.0) && !memory_.empty()) {
+    memory_.clear();
+    slope = find_direction();
+  }
+  double alpha = 1.0;
+  for (int halvings = 0; slope < 0.0 && halvings < kMaxHalvings; ++halvings) {
+    move(x, alpha, direction_, trial_);
+    const double energy = model.evaluate(trial_, half_gradient_);
+    if (energy < energy_ && energy <= energy_ + kSufficient * alpha * slope) {
+      const double change = energy_ - energy;
+      model.accept();
+      x.swap(trial_);
+      previous_ = gradient_;
+      gather(half_gradient_, gradient_);
+      step_ = alpha * direction_;
+      previous_ = gradient_ - previous_;
+      memory_.remember(step_, previous_);
+      energy_ = energy;
+      const double largest = step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff();
+      return {true,
+              change <= tolerance * std::max(energy, noise) && largest <= tolerance * diagonal};
+    }
+    // Lowest point of the parabola through both energies and the slope, within limits.
+    const double lowest = -0.5 * slope * alpha / (energy - energy_ - alpha * slope) * alpha;
+    alpha = std::isfinite(lowest) ? std::clamp(lowest, 0.1 * alpha, 0.5 * alpha) : 0.1 * alpha;
+  }
+  if (memory_.empty()) return {false, true};
+  memory_.clear();  // once more along the plain direction before giving up
+  return step(model, x, tolerance, diagonal, noise);
+}
+
+}  // namespace pliant
