@@ -18,8 +18,15 @@ inline Vec2 load2(const double* p) {
 inline void store2(double* p, Vec2 v) { std::memcpy(p, &v, sizeof v); }
 inline Vec2 splat2(double x) { return Vec2{x, x}; }
 
+/// to += from, n numbers.
+inline void add(const double* from, std::ptrdiff_t n, double* to) {
+  std::ptrdiff_t i = 0;
+  for (; i + 2 <= n; i += 2) store2(to + i, load2(to + i) + load2(from + i));
+  if (i < n) to[i] += from[i];
+}
+
 /// Columns eliminated at a time by `factorize_panel`.
-inline constexpr int kPanelBlock = 32;
+inline constexpr int kPanelBlock = 16;
 
 /// Doubles that `packed` must hold for a front of `rows` rows.
 inline std::size_t packed_size(std::size_t rows) { return (rows + 3) / 4 * 4 * kPanelBlock; }

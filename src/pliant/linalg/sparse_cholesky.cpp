@@ -5,34 +5,14 @@
 #include <cstring>
 #include <string>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
-
 #include "pliant/linalg/dense_kernels.h"
+#include "pliant/linalg/ordering.h"
 
 namespace pliant {
 namespace {
 
 /// Neighbours of each place in elimination order.
 using Adjacency = std::vector<std::vector<Index>>;
-
-/// A fill-reducing order of the nodes: order[place] = node.
-std::vector<Index> minimum_degree_order(const BlockMatrix& matrix) {
-  using Pattern = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(2 * matrix.edges.size() + matrix.nodes);
-  for (Index j = 0; j < matrix.nodes; ++j) entries.emplace_back(j, j, 1.0);
-  for (const auto& [j, k] : matrix.edges) {
-    entries.emplace_back(j, k, 1.0);
-    entries.emplace_back(k, j, 1.0);
-  }
-  Pattern pattern(matrix.nodes, matrix.nodes);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(pattern, permutation);
-  const auto& indices = permutation.indices();
-  return std::vector<Index>(indices.data(), indices.data() + indices.size());
-}
 
 Adjacency adjacency_in_order(const BlockMatrix& matrix, const std::vector<Index>& position) {
   Adjacency adjacency(matrix.nodes);
@@ -122,13 +102,12 @@ bool worth_merging(double width, double zeros, double total) {
 
 }  // namespace
 
-void SparseCholesky::order(const BlockMatrix& matrix) {
-  const std::vector<Index> by_degree = minimum_degree_order(matrix);
+void SparseCholesky::place_nodes(const BlockMatrix& matrix, const std::vector<Index>& order) {
   position_.assign(nodes_, 0);
-  for (Index place = 0; place < nodes_; ++place) position_[by_degree[place]] = place;
+  for (Index place = 0; place < nodes_; ++place) position_[order[place]] = place;
   const std::vector<Index> by_tree =
       postorder(elimination_tree(adjacency_in_order(matrix, position_)));
-  for (Index place = 0; place < nodes_; ++place) position_[by_degree[by_tree[place]]] = place;
+  for (Index place = 0; place < nodes_; ++place) position_[order[by_tree[place]]] = place;
 }
 
 void SparseCholesky::find_supernodes(const std::vector<std::vector<Index>>& structure,
@@ -188,15 +167,19 @@ void SparseCholesky::link_supernodes() {
     if (node.rows.empty()) continue;
     node.parent = supernode_of_[node.rows.front()];
     const Supernode& parent = supernodes_[node.parent];
-    node.parent_position.clear();
-    std::size_t below = 0;
-    for (Index row : node.rows) {
-      if (row < parent.first + parent.width) {
-        node.parent_position.push_back(row - parent.first);
-        continue;
+    node.runs.clear();
+    Index below = 0;
+    for (Index from = 0; from < static_cast<Index>(node.rows.size()); ++from) {
+      const Index row = node.rows[from];
+      Index to = row - parent.first;
+      if (to >= parent.width) {
+        while (parent.rows[below] != row) ++below;
+        to = parent.width + below;
       }
-      while (parent.rows[below] != row) ++below;
-      node.parent_position.push_back(parent.width + static_cast<Index>(below));
+      if (!node.runs.empty() && node.runs.back().to + node.runs.back().count == to)
+        ++node.runs.back().count;
+      else
+        node.runs.push_back({from, to, 1});
     }
   }
 }
@@ -245,9 +228,14 @@ std::size_t SparseCholesky::stack_size() const {
 }
 
 Status SparseCholesky::analyze(const BlockMatrix& matrix) {
+  return analyze(matrix, fill_reducing_order(matrix.nodes, matrix.edges));
+}
+
+Status SparseCholesky::analyze(const BlockMatrix& matrix, const std::vector<Index>& order) {
+  assert(static_cast<Index>(order.size()) == matrix.nodes);
   block_ = matrix.block;
   nodes_ = matrix.nodes;
-  order(matrix);
+  place_nodes(matrix, order);
   const Adjacency adjacency = adjacency_in_order(matrix, position_);
   const std::vector<Index> parent = elimination_tree(adjacency);
   find_supernodes(column_structure(adjacency, parent), parent);
@@ -277,11 +265,11 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   for (const Supernode& node : supernodes_) {
     tallest = std::max(tallest, static_cast<std::size_t>(node.height()) * block_);
   }
-  factor_.assign(factor_size_, 0.0);
-  stack_.assign(stack, 0.0);
+  factor_.resize(factor_size_);
+  stack_.resize(stack);
   waiting_.reserve(supernodes_.size());
-  work_.assign(std::max(dense::packed_size(tallest), 3 * tallest), 0.0);
-  gathered_.assign(static_cast<std::size_t>(rows()) * 3, 0.0);
+  work_.resize(std::max(dense::packed_size(tallest), 3 * tallest));
+  gathered_.resize(static_cast<std::size_t>(rows()) * 3);
   return {};
 }
 
@@ -293,8 +281,34 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
                                             : matrix.edge_block(entry.source);
     double* target = panel + entry.column * b * ld + entry.row * b;
     for (int c = 0; c < b; ++c) {
-      for (int r = 0; r < b; ++r) {
-        target[c * ld + r] += entry.transposed ? source[r * b + c] : source[c * b + r];
+      if (!entry.transposed) {
+        dense::add(source + c * b, b, target + c * ld);
+        continue;
+      }
+      for (int r = 0; r < b; ++r) target[c * ld + r] += source[r * b + c];
+    }
+  }
+}
+
+void SparseCholesky::extend_add(const Supernode& child, const Supernode& parent,
+                                const double* source, double* panel, double* update) const {
+  const std::ptrdiff_t b = block_, n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
+  const std::ptrdiff_t columns = parent.width * b, height = parent.height() * b;
+  for (std::size_t run = 0; run < child.runs.size(); ++run) {
+    const Run& across = child.runs[run];
+    for (std::ptrdiff_t c = 0; c < across.count * b; ++c) {
+      const std::ptrdiff_t column = across.to * b + c;
+      double* target = column < columns
+                           ? panel + column * height
+                           : update + (column - columns) * (height - columns) - columns;
+      const double* from = source + (across.from * b + c) * n;
+      // The lower triangle, from the block on the diagonal on.
+      const std::ptrdiff_t skipped = c / b * b;
+      dense::add(from + across.from * b + skipped, across.count * b - skipped,
+                 target + across.to * b + skipped);
+      for (std::size_t down = run + 1; down < child.runs.size(); ++down) {
+        const Run& rows = child.runs[down];
+        dense::add(from + rows.from * b, rows.count * b, target + rows.to * b);
       }
     }
   }
@@ -303,7 +317,6 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
 Status SparseCholesky::factorize(const BlockMatrix& matrix) {
   assert(matrix.nodes == nodes_ && matrix.block == block_);
   const int b = block_;
-  std::fill(factor_.begin(), factor_.end(), 0.0);
   // The update matrices waiting for their parents lie on stack_, children of the next front on top.
   std::size_t top = 0;
   auto& waiting = waiting_;
@@ -313,7 +326,8 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
     const int columns = node.width * b, height = node.height() * b, below = height - columns;
     double* panel = factor_.data() + node.factor;
     double* update = stack_.data() + top;
-    std::fill(update, update + static_cast<std::ptrdiff_t>(below) * below, 0.0);
+    std::fill_n(panel, static_cast<std::ptrdiff_t>(height) * columns, 0.0);
+    std::fill_n(update, static_cast<std::ptrdiff_t>(below) * below, 0.0);
     assemble(matrix, s, panel);
 
     std::size_t base = top;
@@ -321,22 +335,7 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
       const Supernode& child = supernodes_[waiting.back()];
       const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
       base -= n * n;
-      const double* source = stack_.data() + base;
-      for (std::size_t cj = 0; cj < child.rows.size(); ++cj) {
-        const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(child.parent_position[cj]) * b;
-        const bool in_panel = column < columns;
-        const std::ptrdiff_t ld = in_panel ? height : below;
-        double* target =
-            in_panel ? panel + column * ld : update + (column - columns) * ld - columns;
-        for (std::size_t ci = cj; ci < child.rows.size(); ++ci) {
-          const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(child.parent_position[ci]) * b;
-          for (int c = 0; c < b; ++c) {
-            const double* from = source + (cj * b + c) * n + ci * b;
-            double* to = target + c * ld + row;
-            for (int r = 0; r < b; ++r) to[r] += from[r];
-          }
-        }
-      }
+      extend_add(child, node, stack_.data() + base, panel, update);
       waiting.pop_back();
     }
 

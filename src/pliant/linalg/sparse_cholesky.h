@@ -1,8 +1,8 @@
 // Sparse Cholesky for symmetric positive definite block matrices: analyse a pattern once, factorise
 // as often as the values change, solve as often as the right-hand side does.
 //
-// Multifrontal: the pattern is ordered (approximate minimum degree on nodes, not scalars) and its
-// columns gathered into supernodes, so that all arithmetic happens in dense fronts.
+// Multifrontal: the pattern is ordered (on nodes, not scalars) and its columns gathered into
+// supernodes, so that all arithmetic happens in dense fronts.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,8 @@ class SparseCholesky {
   /// Orders the pattern and allocates everything that factorising and solving need.
   /// Errors: too_large (the factor would take more than `max_bytes`); the object is then unusable.
   Status analyze(const BlockMatrix& matrix);
+  /// The same along a given fill-reducing order (place -> node), which spares finding one.
+  Status analyze(const BlockMatrix& matrix, const std::vector<Index>& order);
 
   /// The same for a matrix over the same edges as one already analysed, with blocks of any size:
   /// takes over its order.
@@ -38,14 +40,20 @@ class SparseCholesky {
   static constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
  private:
+  /// Consecutive rows that stay consecutive in the parent's front.
+  struct Run {
+    Index from;  ///< first of them, counted below the columns
+    Index to;    ///< its node position in the parent's front
+    Index count;
+  };
   /// Columns [first, first + width) in elimination order; `rows` are the nodes below them.
   struct Supernode {
     Index first = 0;
     Index width = 0;
     Index parent = -1;
-    std::vector<Index> rows;             ///< permuted node ids, ascending
-    std::vector<Index> parent_position;  ///< of each row: node position in the parent's front
-    std::size_t factor = 0;              ///< offset of its panel in factor_
+    std::vector<Index> rows;  ///< permuted node ids, ascending
+    std::vector<Run> runs;    ///< where the rows lie in the parent's front
+    std::size_t factor = 0;   ///< offset of its panel in factor_
     Index height() const { return width + static_cast<Index>(rows.size()); }
   };
   /// Where a block of the matrix lands: front position of its row and column, transposed or not.
@@ -56,13 +64,16 @@ class SparseCholesky {
   };
 
   Status prepare(const BlockMatrix& matrix);
-  void order(const BlockMatrix& matrix);
+  void place_nodes(const BlockMatrix& matrix, const std::vector<Index>& order);
   void find_supernodes(const std::vector<std::vector<Index>>& structure,
                        const std::vector<Index>& parent);
   void link_supernodes();
   void place_entries(const BlockMatrix& matrix);
   std::size_t stack_size() const;
-  void assemble(const BlockMatrix& matrix, std::size_t supernode, double* front) const;
+  void assemble(const BlockMatrix& matrix, std::size_t supernode, double* panel) const;
+  /// Adds a child's update matrix to its parent's front: `panel` and, below it, `update`.
+  void extend_add(const Supernode& child, const Supernode& parent, const double* source,
+                  double* panel, double* update) const;
   template <int Columns>
   void solve_some(double* x);
 

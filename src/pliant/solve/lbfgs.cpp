@@ -7,8 +7,12 @@ namespace pliant {
 void Lbfgs::reset(Eigen::Index n) {
   used_ = 0;
   newest_ = 0;
-  s_.assign(capacity_, Eigen::VectorXd::Zero(n));
-  y_.assign(capacity_, Eigen::VectorXd::Zero(n));
+  s_.resize(capacity_);
+  y_.resize(capacity_);
+  for (int i = 0; i < capacity_; ++i) {
+    s_[i].resize(n);
+    y_[i].resize(n);
+  }
   rho_.assign(capacity_, 0.0);
   alpha_.assign(capacity_, 0.0);
 }

@@ -40,8 +40,53 @@ Conditions conditions_across(const Eigen::Matrix3d& d) {
 }
 
 void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d& columns,
-               double w) {
-  Eigen::Map<Eigen::Matrix4d>(block) += w * rows * columns.transpose();
+               double w = 1.0) {
+  const dense::Vec2 r01 = dense::load2(rows.data()), r23 = dense::load2(rows.data() + 2);
+  for (int c = 0; c < 4; ++c, block += 4) {
+    const dense::Vec2 scale = dense::splat2(w * columns[c]);
+    dense::store2(block, dense::load2(block) + r01 * scale);
+    dense::store2(block + 2, dense::load2(block + 2) + r23 * scale);
+  }
+}
+
+/// Sums of w (v, 1)(v, 1)' over points v: the upper triangle, row by row.
+using Moments = std::array<double, 10>;
+
+Moments moments_of(const Eigen::Vector3d& v) {
+  return {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[0], v[1] * v[1],
+          v[1] * v[2], v[1],        v[2] * v[2], v[2], 1.0};
+}
+
+void add_moments(const Moments& moments, double w, Moments& sum) {
+  const dense::Vec2 scale = dense::splat2(w);
+  for (int i = 0; i < 10; i += 2) {
+    dense::store2(&sum[i], dense::load2(&sum[i]) + scale * dense::load2(&moments[i]));
+  }
+}
+
+/// The same sums of (v - a, 1)(v - b, 1)'.
+Eigen::Matrix4d moments_about(const Moments& sum, const Eigen::Vector3d& a,
+                              const Eigen::Vector3d& b) {
+  Eigen::Matrix4d m;
+  for (int r = 0, i = 0; r < 4; ++r) {
+    for (int c = r; c < 4; ++c) m(r, c) = m(c, r) = sum[i++];
+  }
+  for (int r = 0; r < 3; ++r) m.row(r) -= a[r] * m.row(3);
+  for (int c = 0; c < 3; ++c) m.col(c) -= b[c] * m.col(3);
+  return m;
+}
+
+/// y += block x.
+void add_product(const Eigen::Matrix4d& block, const double* x, double* y) {
+  dense::Vec2 y01 = dense::load2(y), y23 = dense::load2(y + 2);
+  const double* column = block.data();
+  for (int c = 0; c < 4; ++c, column += 4) {
+    const dense::Vec2 xc = dense::splat2(x[c]);
+    y01 += dense::load2(column) * xc;
+    y23 += dense::load2(column + 2) * xc;
+  }
+  dense::store2(y, y01);
+  dense::store2(y + 2, y23);
 }
 
 }  // namespace
@@ -115,46 +160,62 @@ void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>&
   con_ = targets_;
   reg_.resize(3, 2 * static_cast<Index>(edges_.size()));
   reg_along_.resizeLike(reg_);
-  con_gradient_.setZero(3 * rows());
+  con_rhs_.setZero(3 * rows());
+  con_gradient_ = con_rhs_;
   con_along_.setZero(3 * rows());
-  gather_constraint_blocks();
+  gather_constraint_blocks(constrained, g(Eigen::all, node_of_free_));
 }
 
-void GraphEnergy::gather_constraint_blocks() {
-  BlockMatrix sums;
-  sums.set_zero(4, free_nodes(), free_edges_);
+void GraphEnergy::gather_constraint_blocks(const Points& constrained, const Points& nodes) {
   std::vector<std::size_t> first_edge(free_nodes() + 1, free_edges_.size());
   for (std::size_t e = free_edges_.size(); e-- > 0;) first_edge[free_edges_[e][0]] = e;
   for (Index j = free_nodes(); j-- > 0;) first_edge[j] = std::min(first_edge[j], first_edge[j + 1]);
-  std::vector<bool> touched(free_nodes(), false), joined(free_edges_.size(), false);
-  for (std::size_t l = 0; l + 1 < constraint_start_.size(); ++l) {
+  std::vector<Moments> of_node(free_nodes(), Moments{}), of_edge(free_edges_.size(), Moments{});
+  for (Index l = 0; l < constrained.cols(); ++l) {
+    const Moments moments = moments_of(constrained.col(l));
     for (std::size_t p = constraint_start_[l]; p < constraint_start_[l + 1]; ++p) {
-      const Influence& one = influences_[p];
-      touched[one.node] = true;
-      add_outer(sums.diagonal_block(one.node), one.coefficients, one.coefficients, 1.0);
+      const Index one = influences_[p].node;
+      const double w = influences_[p].coefficients[3];
+      add_moments(moments, w * w, of_node[one]);
       for (std::size_t q = constraint_start_[l]; q < p; ++q) {
-        const Influence& two = influences_[q];
-        const Influence& low = one.node < two.node ? one : two;
-        const Influence& high = one.node < two.node ? two : one;
-        std::size_t e = first_edge[low.node];
-        while (free_edges_[e][1] != high.node) ++e;
-        joined[e] = true;
-        add_outer(sums.edge_block(e), high.coefficients, low.coefficients, 1.0);
+        const Index two = influences_[q].node;
+        std::size_t e = first_edge[std::min(one, two)];
+        while (free_edges_[e][1] != std::max(one, two)) ++e;
+        add_moments(moments, w * influences_[q].coefficients[3], of_edge[e]);
       }
     }
   }
   constraint_blocks_.clear();
-  for (Index j = 0; j < free_nodes(); ++j) {
-    if (touched[j]) constraint_blocks_.push_back({j, j, Eigen::Matrix4d(sums.diagonal_block(j))});
-  }
-  for (std::size_t e = 0; e < free_edges_.size(); ++e) {
-    if (!joined[e]) continue;
-    constraint_blocks_.push_back(
-        {free_edges_[e][0], free_edges_[e][1], Eigen::Matrix4d(sums.edge_block(e))});
-  }
+  auto add_block = [&](Index j, Index k, const Moments& sum) {
+    if (sum.back() == 0.0) return;
+    const Eigen::Matrix4d block = moments_about(sum, nodes.col(k), nodes.col(j));
+    constraint_blocks_.push_back({j, k, block, block.transpose()});
+  };
+  for (Index j = 0; j < free_nodes(); ++j) add_block(j, j, of_node[j]);
+  for (std::size_t e = 0; e < free_edges_.size(); ++e)
+    add_block(free_edges_[e][0], free_edges_[e][1], of_edge[e]);
 }
 
-void GraphEnergy::set_targets(const Points& displacements) { targets_ = displacements; }
+void GraphEnergy::set_targets(const Points& displacements) {
+  targets_ = displacements;
+  constraint_rhs(targets_, con_rhs_);
+}
+
+void GraphEnergy::constraint_rhs(const Points& values, Vector& rhs) const {
+  rhs.setZero();
+  for (Index l = 0; l < values.cols(); ++l) {
+    for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
+      const double* w = influences_[i].coefficients.data();
+      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
+      double* n = rhs.data() + 4 * influences_[i].node;
+      for (int a = 0; a < 3; ++a, n += rows()) {
+        const dense::Vec2 value = dense::splat2(values(a, l));
+        dense::store2(n, dense::load2(n) + value * w01);
+        dense::store2(n + 2, dense::load2(n + 2) + value * w23);
+      }
+    }
+  }
+}
 
 Eigen::Matrix3d GraphEnergy::displacement_gradient(const Vector& x, Index j) const {
   Eigen::Matrix3d u;
@@ -207,11 +268,8 @@ void GraphEnergy::apply_constraint_blocks(const Vector& d, Vector& product) cons
   product.setZero();
   for (const ConstraintBlock& b : constraint_blocks_) {
     for (int a = 0; a < 3; ++a) {
-      using Part = Eigen::Map<const Eigen::Vector4d>;
-      Eigen::Map<Eigen::Vector4d>(entry(product, a, b.k)) += b.block * Part(entry(d, a, b.j));
-      if (b.k == b.j) continue;
-      Eigen::Map<Eigen::Vector4d>(entry(product, a, b.j)) +=
-          b.block.transpose() * Part(entry(d, a, b.k));
+      add_product(b.block, entry(d, a, b.j), entry(product, a, b.k));
+      if (b.k != b.j) add_product(b.transposed, entry(d, a, b.k), entry(product, a, b.j));
     }
   }
 }
@@ -230,21 +288,9 @@ double GraphEnergy::rotation_terms(const Vector& x) const {
 
 void GraphEnergy::evaluate(const Vector& x) {
   regularization_residuals(x, reg_);
-  con_gradient_.setZero();
-  for (Index l = 0; l < con_.cols(); ++l) {
-    const Eigen::Vector3d r = constraint_residual(x, l);
-    con_.col(l) = r;
-    for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-      const double* w = influences_[i].coefficients.data();
-      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-      double* n = con_gradient_.data() + 4 * influences_[i].node;
-      for (int a = 0; a < 3; ++a, n += rows()) {
-        const dense::Vec2 ra = dense::splat2(r[a]);
-        dense::store2(n, dense::load2(n) + ra * w01);
-        dense::store2(n + 2, dense::load2(n + 2) + ra * w23);
-      }
-    }
-  }
+  for (Index l = 0; l < con_.cols(); ++l) con_.col(l) = constraint_residual(x, l);
+  apply_constraint_blocks(x, con_gradient_);
+  con_gradient_ -= con_rhs_;
   terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
 }
 
@@ -362,19 +408,6 @@ void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
     double* block =
         b.j == b.k ? matrix.diagonal_block(b.j) : matrix.edge_block(edge - free_edges_.begin());
     Eigen::Map<Eigen::Matrix4d>(block) += weights_.constraint * b.block;
-  }
-}
-
-void GraphEnergy::translation_rhs(const Points& values, Vector& rhs) const {
-  rhs.setZero();
-  for (int a = 0; a < 3; ++a) {
-    double* part = rhs.data() + a * free_nodes();
-    for (Index l = 0; l < values.cols(); ++l) {
-      for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-        part[influences_[i].node] +=
-            weights_.constraint * influences_[i].coefficients[3] * values(a, l);
-      }
-    }
   }
 }
 

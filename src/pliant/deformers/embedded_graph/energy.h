@@ -81,9 +81,8 @@ class GraphEnergy {
   /// The constant part of half the Hessian, one 4 x 4 block a free node or edge, the same for x, y
   /// and z: w_reg A'A + w_con C'C.
   void constant_matrix(BlockMatrix& matrix) const;
-  /// Right-hand side of fitting a field to values at the constraints (3 x c) in the least-squares
-  /// sense, w_con W' values, one part of free_nodes() numbers after the other.
-  void translation_rhs(const Points& values, Vector& rhs) const;
+  /// C' values for values at the constraints (3 x c).
+  void constraint_rhs(const Points& values, Vector& rhs) const;
   /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry.
   void gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const;
 
@@ -116,10 +115,12 @@ class GraphEnergy {
   struct ConstraintBlock {
     Index j, k;
     Eigen::Matrix4d block;  ///< rows of k, columns of j
+    Eigen::Matrix4d transposed;
   };
 
   Eigen::Vector3d constraint_residual(const Vector& x, Index l) const;
-  void gather_constraint_blocks();
+  /// Fills constraint_blocks_. nodes: scaled positions of the free ones.
+  void gather_constraint_blocks(const Points& constrained, const Points& nodes);
   void regularization_residuals(const Vector& x, Points& reg) const;
   void apply_constraint_blocks(const Vector& d, Vector& product) const;
   double rotation_term(const Vector& x, Index free_node) const;  ///< Rot(R_j), eq. 5
@@ -138,6 +139,7 @@ class GraphEnergy {
   Points reg_, reg_along_;  ///< residuals of eq. 7, two columns an edge; their change along d
   // E_con through C'C: its cost in a step does not depend on how many points a handle has.
   std::vector<ConstraintBlock> constraint_blocks_;
+  Vector con_rhs_;       ///< C' targets
   Vector con_gradient_;  ///< C' (C x - targets)
   Vector con_along_;     ///< C'C d of the last direction
   double con_slope_ = 0.0, con_curvature_ = 0.0;

@@ -9,6 +9,7 @@
 
 #include "pliant/geometry/sampling.h"
 #include "pliant/geometry/simplify.h"
+#include "pliant/linalg/ordering.h"
 
 namespace pliant {
 namespace {
@@ -195,6 +196,7 @@ DeformationGraph build_graph(const Shape& shape, Points nodes,
   graph.influences =
       influences_of(graph.nodes, graph.node_sides, k, shape.points(), graph.point_sides);
   graph.edges = edges_of(graph.influences, graph.size());
+  graph.elimination_order = fill_reducing_order(graph.size(), graph.edges);
   graph.length_unit = mean_edge_length(graph.nodes, graph.edges, shape.diagonal());
   graph.origin = 0.5 * (shape.points().rowwise().minCoeff() + shape.points().rowwise().maxCoeff());
   return graph;

@@ -24,10 +24,11 @@ struct Influences {
 using CutSides = std::vector<unsigned char>;
 
 struct DeformationGraph {
-  Points nodes;              ///< g_j, 3 x m, input coordinates
-  Influences influences;     ///< of the points of the shape
-  std::vector<Edge> edges;   ///< nodes that influence a common point, j < k, sorted
-  double length_unit = 1.0;  ///< mean edge length: the energies are taken in this unit
+  Points nodes;                          ///< g_j, 3 x m, input coordinates
+  Influences influences;                 ///< of the points of the shape
+  std::vector<Edge> edges;               ///< nodes that influence a common point, j < k, sorted
+  std::vector<Index> elimination_order;  ///< of the nodes, for the solver's factorisations
+  double length_unit = 1.0;              ///< mean edge length: the energies are taken in this unit
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of the scene, for accuracy only
   std::vector<CutSides> node_sides;                  ///< one list a cut
   std::vector<CutSides> point_sides;                 ///< of the points of the shape, one list a cut

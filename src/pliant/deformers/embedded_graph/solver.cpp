@@ -25,7 +25,7 @@ constexpr double kExactStiffness = 100.0;
 /// A start with a node below this is mended: the barrier needs one inside.
 constexpr double kLeastDeterminant = 1e-3;
 /// Turns of the constraints below this (radians) need no prediction.
-constexpr double kSmallTurn = 0.05;
+constexpr double kSmallTurn = 0.2;
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
@@ -97,7 +97,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
   memory_.reset(x_.size());
   if (energy_.free_nodes() == 0) return {};
-  return factorize_metric();
+  return factorize_metric(graph);
 }
 
 void GraphSolver::find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
@@ -128,29 +128,31 @@ void GraphSolver::find_components(const DeformationGraph& graph, const std::vect
   }
 }
 
-Status GraphSolver::factorize_metric() {
-  energy_.constant_matrix(constant_);
-  translation_.set_zero(1, energy_.free_nodes(), energy_.free_edges());
-  BlockMatrix metric = constant_;
+Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
+  const std::vector<Index>& node_of_free = energy_.node_of_free();
+  std::vector<Index> free_of_node(graph.size(), -1), order;
+  for (Index j = 0; j < energy_.free_nodes(); ++j) free_of_node[node_of_free[j]] = j;
+  for (Index node : graph.elimination_order) {
+    if (free_of_node[node] >= 0) order.push_back(free_of_node[node]);
+  }
+  const bool newton = options_.kind == EmbeddedGraphSolver::gauss_newton;
+  BlockMatrix metric;
+  energy_.constant_matrix(metric);
+  if (newton) constant_ = metric;
   for (Index j = 0; j < metric.nodes; ++j) {
     Eigen::Map<Eigen::Matrix4d> block(metric.diagonal_block(j));
-    translation_.diagonal[j] = block(3, 3) + kDamping;
     block.diagonal().head<3>().array() += kRotationMetric * options_.weights.rotation;
     block(3, 3) += kDamping;
   }
-  for (std::size_t e = 0; e < metric.edges.size(); ++e)
-    translation_.off_diagonal[e] = metric.edge_block(e)[15];
-
-  const bool newton = options_.kind == EmbeddedGraphSolver::gauss_newton;
-  if (newton) energy_.gauss_newton_matrix(x_, constant_, newton_);
-  SparseCholesky& factor = newton ? newton_factor_ : metric_factor_;
-  if (Status s = factor.analyze(newton ? newton_ : metric); !s.ok()) return s;
-  if (Status s = translation_factor_.analyze_like(factor, translation_); !s.ok()) return s;
+  if (Status s = metric_factor_.analyze(metric, order); !s.ok()) return s;
+  if (Status s = metric_factor_.factorize(metric); !s.ok()) return s;
   ++analyses_;
-  if (Status s = translation_factor_.factorize(translation_); !s.ok()) return s;
-  if (newton) return {};
-  ++factorizations_;
-  return metric_factor_.factorize(metric);
+  if (!newton) {
+    ++factorizations_;
+    return {};
+  }
+  energy_.gauss_newton_matrix(x_, constant_, newton_);
+  return newton_factor_.analyze_like(metric_factor_, newton_);
 }
 
 void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& turns) {
@@ -169,7 +171,6 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
 }
 
 bool GraphSolver::keep_if_lower(double previous_total) {
-  energy_.evaluate(x_);
   if (energy_.total() < previous_total && std::isfinite(barrier())) {
     memory_.clear();
     return true;
@@ -206,7 +207,9 @@ void GraphSolver::predict_rigid() {
       for (int a = 0; a < 3; ++a) energy_.entry(x_, a, j)[3] = shift[a];
     }
   }
-  if (moved) keep_if_lower(before);
+  if (!moved) return;
+  energy_.evaluate(x_);
+  keep_if_lower(before);
 }
 
 void GraphSolver::turn_node(Index j, const Eigen::Matrix3d& rotation) {
@@ -238,35 +241,32 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
   }
   if (largest < kSmallTurn) return;
 
+  // What spreads displacements over the graph spreads turns as well.
   previous_ = x_;
   const double before = energy_.total();
-  energy_.translation_rhs(rotations, direction_);
-  const Index n = energy_.free_nodes();
-  translation_factor_.solve(direction_.data(), 3);
-  for (Index j = 0; j < n; ++j) {
-    turn_node(j, rotation_of({direction_[j], direction_[n + j], direction_[2 * n + j]}));
-  }
-  settle_translations();
+  energy_.constraint_rhs(rotations, direction_);
+  direction_ *= options_.weights.constraint;
+  metric_factor_.solve(direction_.data(), 3);
+  for (Index j = 0; j < energy_.free_nodes(); ++j)
+    turn_node(j, rotation_of(energy_.translation(direction_, j)));
+  energy_.evaluate(x_);
+  update_gradient();
+  follow_metric();
   if (as_told) {
     // Targets alone cannot tell a turn from the same turn short of a full one: take it as told.
-    energy_.evaluate(x_);
     memory_.clear();
   } else {
     keep_if_lower(before);
   }
 }
 
-void GraphSolver::settle_translations() {
-  energy_.evaluate(x_);
-  energy_.half_gradient(x_, gradient_);
-  const Index n = energy_.free_nodes();
-  for (int a = 0; a < 3; ++a) {
-    for (Index j = 0; j < n; ++j) direction_[a * n + j] = energy_.entry(gradient_, a, j)[3];
-  }
-  translation_factor_.solve(direction_.data(), 3);
-  for (int a = 0; a < 3; ++a) {
-    for (Index j = 0; j < n; ++j) energy_.entry(x_, a, j)[3] -= direction_[a * n + j];
-  }
+void GraphSolver::follow_metric() {
+  memory_.clear();
+  direction_ = -gradient_;
+  metric_factor_.solve(direction_.data(), 3);
+  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * gradient_.dot(direction_));
+  x_ += alpha * direction_;
+  energy_.advance(alpha, x_);
 }
 
 Status GraphSolver::find_direction() {

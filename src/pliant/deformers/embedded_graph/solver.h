@@ -62,13 +62,14 @@ class GraphSolver {
  private:
   void find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
                        const Influences& influences);
-  Status factorize_metric();
+  Status factorize_metric(const DeformationGraph& graph);
   void predict_rigid();
   void predict_turns(const std::vector<Turn>& turns, bool as_told);
   void turn_node(Index free_node, const Eigen::Matrix3d& rotation);
   void set_displacement_gradient(Index free_node, const Eigen::Matrix3d& u);
-  void settle_translations();
-  /// After x_ has changed from previous_: goes back unless the energy fell.
+  /// One step along the metric's own direction, from an up-to-date gradient.
+  void follow_metric();
+  /// After x_ and the energy have moved on from previous_: goes back unless the energy fell.
   bool keep_if_lower(double previous_total);
   Status find_direction();
   Eigen::Matrix3d affine_part(Index free_node) const {  ///< R_j
@@ -98,8 +99,8 @@ class GraphSolver {
   Index components_ = 0;
 
   Vector x_, gradient_, direction_, previous_, step_, change_;
-  BlockMatrix constant_, newton_, translation_;
-  SparseCholesky metric_factor_, newton_factor_, translation_factor_;
+  BlockMatrix constant_, newton_;
+  SparseCholesky metric_factor_, newton_factor_;
   Lbfgs memory_;
   std::vector<std::array<double, 4>> near_barrier_;  ///< determinants along the step
   int factorizations_ = 0;
