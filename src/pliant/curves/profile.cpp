@@ -55,6 +55,12 @@ double Profile::before(double s) const {
   return f0 + (f1 - f0) * (s - s0) / (s1 - s0);
 }
 
+Profile Profile::times(double k) const {
+  std::vector<Point> points = points_;
+  for (Point& point : points) point.second *= k;
+  return Profile(std::move(points));
+}
+
 Profile Profile::blend(const Profile& a, const Profile& b, double t) {
   std::vector<double> places;
   for (const Profile* profile : {&a, &b}) {

@@ -30,6 +30,9 @@ class Profile {
   /// (1 - t) a + t b, exactly: it bends where either does.
   static Profile blend(const Profile& a, const Profile& b, double t);
 
+  /// k F(s).
+  Profile times(double k) const;
+
   const std::vector<Point>& points() const { return points_; }
   friend bool operator==(const Profile&, const Profile&) = default;
 

@@ -11,6 +11,7 @@
 #include "pliant/curves/profile.h"
 #include "pliant/geometry/shape.h"
 #include "pliant/sketch/camera.h"
+#include "pliant/sketch/pose.h"
 #include "pliant/sketch/refinement.h"
 #include "pliant/sketch/stroke.h"
 #include "pliant/solve/state.h"
@@ -26,19 +27,6 @@ struct SketchOptions {
   /// A label a vertex of the input, as `Sketch::labels` gives them: the region is taken over, not
   /// chosen. Empty: it is chosen. Not together with partitions or mirror.
   std::vector<Index> labels;
-};
-
-/// The parameters of a pose, relative to the reference curve: what key poses store and blend.
-/// `turns` as many as the reference curve has inner nodes.
-struct SketchPose {
-  double heading = 0.0;                    ///< theta_g of eq. 5, radians
-  std::vector<double> turns;               ///< added to the exterior angles, radians
-  double length = 1.0;                     ///< target's over reference's
-  Profile twist = Profile::constant(0.0);  ///< radians over s
-  Profile scale = Profile::constant(1.0);  ///< of the offset from the joints, over s
-
-  /// Lengths and angles blended linearly, section 6.1. Both poses are of one sketch.
-  static SketchPose blend(const SketchPose& a, const SketchPose& b, double t);
 };
 
 /// Handles for any solver that should finish what the sketch began.
@@ -72,8 +60,9 @@ class Sketch {
 
   // -- Posing: bend, twist and scale add up; each call replaces what it set before.
   /// The target stroke (eq. 1-6), moved so that it starts where the reference does. May be called
-  /// with each sample while it is drawn. Errors: invalid_option.
-  Status bend(const Stroke& target);
+  /// with each sample while it is drawn: `unfinished` then continues it by what is left of the
+  /// reference, so that the limb keeps its length. Errors: invalid_option.
+  Status bend(const Stroke& target, bool unfinished = false);
   /// Takes the bend back; twist and scale stay.
   void unbend();
   /// Right-handed about the stroke's direction, radians at its end, any size (eq. 7).
@@ -127,12 +116,13 @@ class Sketch {
   /// Targets for another solver: rigid parts whole, of the region vertices no closer to one another
   /// than `spacing` diagonals (at least 0).
   SketchSeed seed(double spacing = 0.05) const;
-  /// The tables of the contract, section 3; see sketch/save.cpp for those of twist, scale and
+  /// The tables of the contract, section 3; see sketch/results.cpp for those of twist, scale and
   /// mirror.
   State save() const;
 
  private:
-  struct Impl;
+  friend struct SketchImpl;
+  using Impl = struct SketchImpl;
   explicit Sketch(std::unique_ptr<Impl> impl);
 
   std::unique_ptr<Impl> impl_;

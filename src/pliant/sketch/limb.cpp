@@ -1,0 +1,311 @@
+#include "pliant/sketch/limb.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace pliant {
+namespace {
+
+constexpr int joint_passes = 8;  // joints lie on facets: their depths are averaged along the stroke
+
+Index count_of(const std::vector<Index>& items) { return static_cast<Index>(items.size()); }
+
+Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+/// Edges of the chosen triangles between local ids, each once.
+std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const Region& region,
+                                              const std::vector<Index>& local, Index count) {
+  std::vector<Index> offsets(count + 1, 0);
+  const auto for_each_side = [&](auto&& visit) {
+    for (Index t = 0; t < triangles.cols(); ++t) {
+      if (region.of_triangle[t] != region_label) continue;
+      for (int c = 0; c < 3; ++c) {
+        const auto [low, high] =
+            std::minmax(local[triangles(c, t)], local[triangles((c + 1) % 3, t)]);
+        visit(low, high);
+      }
+    }
+  };
+  for_each_side([&](Index low, Index) { ++offsets[low + 1]; });
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<Index> others(offsets.back());
+  std::vector<Index> next(offsets.begin(), offsets.end() - 1);
+  for_each_side([&](Index low, Index high) { others[next[low]++] = high; });
+  std::vector<std::array<Index, 2>> edges;
+  edges.reserve(others.size() / 2);
+  for (Index low = 0; low < count; ++low) {
+    const auto first = others.begin() + offsets[low], last = others.begin() + offsets[low + 1];
+    std::sort(first, last);
+    std::for_each(first, std::unique(first, last), [&](Index high) {
+      edges.push_back({low, high});
+    });
+  }
+  return edges;
+}
+
+}  // namespace
+
+Limb::Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored)
+    : seen_(std::move(seen)),
+      stroke_(std::move(stroke)),
+      region_(std::move(region)),
+      mirrored_(mirrored),
+      points_(static_cast<Index>(seen_.view.cols())),
+      pose_(SketchPose::rest(stroke_.curve)),
+      target_(stroke_.curve) {
+  collect_points();
+  skin();
+  place_virtual_vertices();
+  prepare_smoother();
+  bend_.assign(points_, 0.0);
+  twist_.assign(points_, 0.0);
+  scale_.assign(points_, 1.0);
+  set_smooth(true);
+}
+
+void Limb::collect_points() {
+  parts_.resize(region_.rigid_parts);
+  moved_.assign(points_, false);
+  for (Index p = 0; p < points_; ++p) {
+    const Index label = region_.of_point[p];
+    moved_[p] = label != static_label;
+    if (label == region_label) free_.push_back(p);
+    if (label >= first_rigid_label) parts_[label - first_rigid_label].points.push_back(p);
+  }
+  std::vector<bool> seen(points_, false);
+  for (Index t = 0; t < seen_.triangles.cols(); ++t) {
+    if (region_.of_triangle[t] != region_label) continue;
+    for (const Index p : seen_.triangles.col(t)) {
+      if (region_.of_point[p] != region_label && !seen[p]) pinned_.push_back(p);
+      seen[p] = true;
+    }
+  }
+}
+
+void Limb::skin() {
+  s_.assign(points_, 0.0);
+  for (const Index p : free_) s_[p] = stroke_.curve.nearest(seen_.view.col(p).head<2>());
+  // Along the curve neighbours lie close in memory, whatever the numbering of the mesh.
+  std::stable_sort(free_.begin(), free_.end(), [&](Index a, Index b) { return s_[a] < s_[b]; });
+  for (const Index p : free_) raw_s_.push_back(s_[p]);
+}
+
+/// Section 4.3: the virtual vertex of a rigid part is the centre of its boundary.
+void Limb::place_virtual_vertices() {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (const Index p : pinned_) {
+      if (region_.of_point[p] != first_rigid_label + static_cast<Index>(k)) continue;
+      center += seen_.view.col(p);
+      ++count;
+    }
+    parts_[k].s = count > 0 ? stroke_.curve.nearest(center.head<2>() / count) : 1.0;
+    for (const Index p : parts_[k].points) s_[p] = parts_[k].s;
+  }
+}
+
+void Limb::prepare_smoother() {
+  std::vector<Index> point_of_local = free_;
+  point_of_local.insert(point_of_local.end(), pinned_.begin(), pinned_.end());
+  std::vector<Index> local(points_, -1);
+  for (Index i = 0; i < count_of(point_of_local); ++i) local[point_of_local[i]] = i;
+  const auto edges = local_edges(seen_.triangles, region_, local, count_of(point_of_local));
+  smoother_ = ParameterSmoother(seen_.view, point_of_local, count_of(free_), edges);
+  raw_.resize(free_.size());
+  solved_.resize(free_.size());
+  pins_.resize(pinned_.size());
+}
+
+void Limb::set_smooth(bool smooth) {
+  smooth_ = smooth;
+  if (smooth) {
+    for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
+    solved_ = raw_s_;
+    smoother_.solve(raw_s_, pins_, solved_);
+  }
+  const std::vector<double>& values = smooth ? solved_ : raw_s_;
+  for (std::size_t i = 0; i < free_.size(); ++i) s_[free_[i]] = std::clamp(values[i], 0.0, 1.0);
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    s_[points_ + i] = 0.5 * (s_[added_[i][0]] + s_[added_[i][1]]);
+  }
+}
+
+template <class F, class G>
+void Limb::spread(const F& f, double at_static, const G& rigid, std::vector<double>& values) {
+  std::fill(values.begin(), values.end(), at_static);
+  for (const Part& part : parts_) {
+    const double value = rigid(part.s);
+    for (const Index p : part.points) values[p] = value;
+  }
+  if (smooth_) {
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      raw_[i] = f(raw_s_[i]);
+      solved_[i] = f(s_[free_[i]]);
+    }
+    for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = values[pinned_[i]];
+    smoother_.solve(raw_, pins_, solved_);
+    for (std::size_t i = 0; i < free_.size(); ++i) values[free_[i]] = solved_[i];
+  } else {
+    for (const Index p : free_) values[p] = f(s_[p]);
+  }
+  spread_to_added(f, values);
+}
+
+/// What smoothing added to f is averaged; f itself follows the curve.
+template <class F>
+void Limb::spread_to_added(const F& f, std::vector<double>& values) const {
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const auto [a, b] = added_[i];
+    values[points_ + i] = f(s_[points_ + i]) + 0.5 * (values[a] - f(s_[a]) + values[b] - f(s_[b]));
+  }
+}
+
+double Limb::angle(double s) const {
+  return target_.turning(s) - stroke_.curve.turning(s) + pose_.heading;  // eq. 5
+}
+
+void Limb::set_pose(const SketchPose& pose) {
+  assert(has_joints() || (!pose.twists() && !pose.scales()));
+  pose_ = pose;
+  if (pose.bends()) {
+    target_ = bent(stroke_.curve, pose, 1.0);
+    const auto theta = [&](double s) { return angle(s); };
+    spread(theta, 0.0, theta, bend_);
+  } else {
+    target_ = stroke_.curve;
+    std::fill(bend_.begin(), bend_.end(), 0.0);
+  }
+  if (pose.twists()) {
+    spread(pose.twist, 0.0, pose.twist, twist_);
+  } else {
+    std::fill(twist_.begin(), twist_.end(), 0.0);
+  }
+  if (pose.scales()) {
+    // Rigid parts keep their size, and the region joins them.
+    spread(pose.scale, 1.0, Profile::constant(1.0), scale_);
+  } else {
+    std::fill(scale_.begin(), scale_.end(), 1.0);
+  }
+}
+
+Status Limb::find_joints() {
+  if (has_joints()) return {};
+  const Index nodes = stroke_.curve.size();
+  std::vector<double> depths;
+  for (Index i = 0; i < nodes; ++i) {
+    const std::vector<Hit>& hits = stroke_.hits[i];
+    if (hits.size() < 2) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "reference meets the shape %s at pixel (%.1f, %.1f); twist and scale need a "
+                    "front and a back hit at every pixel of it",
+                    hits.empty() ? "nowhere" : "only once", stroke_.pixels(0, i),
+                    stroke_.pixels(1, i));
+      return {ErrorCode::invalid_option, text};
+    }
+    depths.push_back(0.5 * (hits[0].depth + hits[1].depth));
+  }
+  for (int pass = 0; pass < joint_passes; ++pass) {
+    const std::vector<double> before = depths;
+    for (Index i = 1; i + 1 < nodes; ++i) {
+      depths[i] = 0.25 * (before[i - 1] + 2.0 * before[i] + before[i + 1]);
+    }
+  }
+  joints_.resize(3, nodes);
+  for (Index i = 0; i < nodes; ++i) {
+    joints_.col(i).head<2>() = seen_.camera.at_depth(stroke_.pixels.col(i), depths[i]);
+    joints_(2, i) = depths[i];
+  }
+  return {};
+}
+
+/// Unit; the mean of the segments at a node, linear between.
+Eigen::Vector3d Limb::tangent(double s) const {
+  const Index last = static_cast<Index>(joints_.cols()) - 1;
+  const double x = s * last;
+  const Index i = std::clamp(static_cast<Index>(x), 0, last - 1);
+  const auto at_node = [&](Index k) -> Eigen::Vector3d {
+    return (joints_.col(std::min(k + 1, last)) - joints_.col(std::max(k - 1, 0))).normalized();
+  };
+  return ((1.0 - (x - i)) * at_node(i) + (x - i) * at_node(i + 1)).normalized();
+}
+
+Eigen::Vector3d Limb::place(const Eigen::Vector3d& view, const Parameters& at, double t,
+                            const PlaneCurve& target) const {
+  Eigen::Vector3d v = view;
+  if (pose_.twists() || pose_.scales()) {
+    const Index last = static_cast<Index>(joints_.cols()) - 1;
+    const double x = at.s * last;
+    const Index i = std::clamp(static_cast<Index>(x), 0, last - 1);
+    const Eigen::Vector3d joint = (1.0 - (x - i)) * joints_.col(i) + (x - i) * joints_.col(i + 1);
+    // Eq. 7. View coordinates are left-handed, those of a reflected camera right-handed but twist
+    // the other way: the angle's sign changes in both.
+    v = joint + (1.0 + t * (at.scale - 1.0)) *
+                    (Eigen::AngleAxisd(-t * at.twist, tangent(at.s)) * (v - joint));
+  }
+  if (pose_.bends()) {
+    const Eigen::Vector2d offset = v.head<2>() - stroke_.curve.point(at.s);
+    v.head<2>() = target.point(at.s) + turned(offset, t * at.bend);  // eq. 6
+  }
+  return v;
+}
+
+void Limb::show(double t, Points& world) const {
+  const bool still = t == 0.0 || (!pose_.bends() && !pose_.twists() && !pose_.scales());
+  const PlaneCurve target = still ? PlaneCurve() : bent(stroke_.curve, pose_, t);
+  const Index total = static_cast<Index>(s_.size());
+  for (Index p = 0; p < total && !still; ++p) {
+    if (!moved_[p]) continue;
+    const Parameters at{s_[p], bend_[p], twist_[p], scale_[p]};
+    world.col(p) = seen_.camera.to_world(place(seen_.view.col(p), at, t, target));
+  }
+}
+
+Limb::Parameters Limb::between(Index a, Index b) const {
+  const double s = 0.5 * (s_[a] + s_[b]);
+  const auto middle = [&](const auto& f, const std::vector<double>& values) {
+    return f(s) + 0.5 * (values[a] - f(s_[a]) + values[b] - f(s_[b]));
+  };
+  return {s, pose_.bends() ? middle([&](double x) { return angle(x); }, bend_) : 0.0,
+          middle(pose_.twist, twist_), middle(pose_.scale, scale_)};
+}
+
+Eigen::Vector3d Limb::middle(Index a, Index b, double t) const {
+  const Eigen::Vector3d view = 0.5 * (seen_.view.col(a) + seen_.view.col(b));
+  return seen_.camera.to_world(place(view, between(a, b), t, bent(stroke_.curve, pose_, t)));
+}
+
+void Limb::add(std::span<const std::array<Index, 2>> parents) {
+  const Index first = static_cast<Index>(s_.size());
+  seen_.view.conservativeResize(3, first + static_cast<Index>(parents.size()));
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    const auto [a, b] = parents[i];
+    const Parameters at = between(a, b);
+    seen_.view.col(first + static_cast<Index>(i)) = 0.5 * (seen_.view.col(a) + seen_.view.col(b));
+    moved_.push_back(moved_[a] || moved_[b]);
+    s_.push_back(at.s);
+    bend_.push_back(at.bend);
+    twist_.push_back(at.twist);
+    scale_.push_back(at.scale);
+    added_.push_back(parents[i]);
+  }
+}
+
+void Limb::drop_added() {
+  added_.clear();
+  seen_.view.conservativeResize(3, points_);
+  moved_.resize(points_);
+  for (std::vector<double>* values : {&s_, &bend_, &twist_, &scale_}) values->resize(points_);
+}
+
+}  // namespace pliant

@@ -1,0 +1,260 @@
+#include "pliant/sketch/plane_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "pliant/sketch/graph_cut.h"
+
+namespace pliant {
+namespace {
+
+constexpr double concave = 1.0, convex = 0.2;  // eta
+constexpr double least_cost = 0.01;            // of the length
+
+Index root_of(std::vector<Index>& parent, Index i) {
+  while (parent[i] != i) {
+    parent[i] = parent[parent[i]];
+    i = parent[i];
+  }
+  return i;
+}
+
+void join(std::vector<Index>& parent, Index a, Index b) {
+  a = root_of(parent, a);
+  b = root_of(parent, b);
+  parent[std::max(a, b)] = std::min(a, b);
+}
+
+std::vector<Index> all_apart(Index count) {
+  std::vector<Index> parent(count);
+  std::iota(parent.begin(), parent.end(), 0);
+  return parent;
+}
+
+/// An edge of a triangle; equal edges stand together when sorted.
+struct Side {
+  Index low, high, triangle, opposite;
+  bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+std::vector<Side> sorted_sides(const Triangles& triangles, std::span<const Index> chosen) {
+  std::vector<Side> sides;
+  sides.reserve(3 * chosen.size());
+  for (const Index t : chosen) {
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(triangles(c, t), triangles((c + 1) % 3, t));
+      sides.push_back({low, high, t, triangles((c + 2) % 3, t)});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::array{x.low, x.high, x.triangle} < std::array{y.low, y.high, y.triangle};
+  });
+  return sides;
+}
+
+/// Calls visit(first, last) for the sides of every edge.
+template <class Visit>
+void for_each_run(const std::vector<Side>& sides, Visit&& visit) {
+  for (auto first = sides.begin(); first != sides.end();) {
+    auto last = first + 1;
+    while (last != sides.end() && last->same_edge(*first)) ++last;
+    visit(first, last);
+    first = last;
+  }
+}
+
+}  // namespace
+
+double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                const Eigen::Vector3d& d) {
+  const double length = (b - a).norm();
+  const Eigen::Vector3d n = (b - a).cross(c - a);
+  const Eigen::Vector3d m = (a - b).cross(d - b);
+  const double bend = std::atan2(n.cross(m).norm(), n.dot(m));
+  const double eta = n.dot(d - a) > 0.0 ? concave : convex;
+  return length * std::max(least_cost, 1.0 - eta * bend / std::numbers::pi);
+}
+
+PlaneCut::PlaneCut(const Points& points, const Triangles& triangles, std::span<const Index> part,
+                   std::span<const double> distance)
+    : points_(points), triangles_(triangles), part_(part), distance_(distance) {
+  find_pieces();
+  find_loops();
+}
+
+bool PlaneCut::crossed(Index t) const {
+  const int ahead = (distance_[triangles_(0, t)] >= 0.0) + (distance_[triangles_(1, t)] >= 0.0) +
+                    (distance_[triangles_(2, t)] >= 0.0);
+  return ahead != 0 && ahead != 3;
+}
+
+void PlaneCut::find_pieces() {
+  piece_ = all_apart(static_cast<Index>(points_.cols()));
+  for (const Index t : part_) {
+    for (int c = 0; c < 3; ++c) {
+      const Index a = triangles_(c, t), b = triangles_((c + 1) % 3, t);
+      if ((distance_[a] >= 0.0) == (distance_[b] >= 0.0)) join(piece_, a, b);
+    }
+  }
+  // Parents come before their children.
+  for (Index p = 0; p < points_.cols(); ++p) piece_[p] = piece_[piece_[p]];
+}
+
+std::vector<Index> PlaneCut::components() const {
+  std::vector<Index> parent = all_apart(static_cast<Index>(piece_.size()));
+  for (const CutLoop& loop : loops_) join(parent, loop.behind, loop.ahead);
+  std::vector<Index> component(piece_.size());
+  for (std::size_t p = 0; p < piece_.size(); ++p) component[p] = root_of(parent, piece_[p]);
+  return component;
+}
+
+void PlaneCut::find_loops() {
+  std::vector<Index> across;
+  for (const Index t : part_) {
+    if (crossed(t)) across.push_back(t);
+  }
+  std::vector<Index> parent = all_apart(static_cast<Index>(across.size()));
+  const auto place = [&](Index t) {
+    return static_cast<Index>(std::lower_bound(across.begin(), across.end(), t) - across.begin());
+  };
+  const std::vector<Side> sides = sorted_sides(triangles_, across);
+  const auto is_crossed = [&](const Side& side) {
+    return (distance_[side.low] >= 0.0) != (distance_[side.high] >= 0.0);
+  };
+  for_each_run(sides, [&](auto first, auto last) {
+    for (auto next = first + 1; is_crossed(*first) && next != last; ++next) {
+      join(parent, place(first->triangle), place(next->triangle));
+    }
+  });
+
+  std::vector<Index> loop_of(across.size(), -1);
+  std::vector<std::vector<Eigen::Vector3d>> crossings;
+  for (Index i = 0; i < static_cast<Index>(across.size()); ++i) {
+    const Index root = root_of(parent, i);
+    if (root == i) {
+      loop_of[i] = static_cast<Index>(loops_.size());
+      loops_.emplace_back();
+      for (const Index corner : triangles_.col(across[i])) {
+        (distance_[corner] >= 0.0 ? loops_.back().ahead : loops_.back().behind) = piece_[corner];
+      }
+    }
+    loops_[loop_of[root]].triangles.push_back(across[i]);
+    loop_of[i] = loop_of[root];
+  }
+  crossings.resize(loops_.size());
+  for_each_run(sides, [&](auto first, auto) {
+    if (!is_crossed(*first)) return;
+    const double low = distance_[first->low], high = distance_[first->high];
+    const double share = low / (low - high);
+    crossings[loop_of[place(first->triangle)]].push_back((1.0 - share) * points_.col(first->low) +
+                                                         share * points_.col(first->high));
+  });
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    loops_[l].crossings.resize(3, static_cast<Index>(crossings[l].size()));
+    for (std::size_t i = 0; i < crossings[l].size(); ++i) {
+      loops_[l].crossings.col(static_cast<Index>(i)) = crossings[l][i];
+    }
+  }
+}
+
+const std::vector<Index>& PlaneCut::separate(Index first) {
+  group_ = all_apart(static_cast<Index>(piece_.size()));
+  const Index behind = loops_[first].behind, ahead = loops_[first].ahead;
+  for (const CutLoop& loop : loops_) {
+    const Index a = root_of(group_, loop.behind), b = root_of(group_, loop.ahead);
+    const Index s = root_of(group_, behind), t = root_of(group_, ahead);
+    const bool merges = (a == s && b == t) || (a == t && b == s);
+    if (!merges) join(group_, a, b);
+  }
+  behind_ = root_of(group_, behind);
+  ahead_ = root_of(group_, ahead);
+  for (Index& group : group_) group = root_of(group_, group);
+  kept_.clear();
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    if (group_[loops_[l].behind] != group_[loops_[l].ahead]) {
+      kept_.push_back(static_cast<Index>(l));
+    }
+  }
+  return kept_;
+}
+
+CutSide PlaneCut::side_of(Index point) const {
+  const Index group = group_[piece_[point]];
+  return group == behind_ ? CutSide::behind : (group == ahead_ ? CutSide::ahead : CutSide::outside);
+}
+
+std::vector<CutSide> PlaneCut::sides(double band) const {
+  assert(behind_ >= 0);
+  // By the plane first: a crossed triangle goes with two of its corners.
+  std::vector<CutSide> result;
+  std::vector<Index> near;
+  for (const Index t : part_) {
+    const CutSide a = side_of(triangles_(0, t)), b = side_of(triangles_(1, t)),
+                  c = side_of(triangles_(2, t));
+    result.push_back(a == b || a == c ? a : b);
+    double low = distance_[triangles_(0, t)], high = low;
+    for (const Index corner : triangles_.col(t)) {
+      low = std::min(low, distance_[corner]);
+      high = std::max(high, distance_[corner]);
+    }
+    if (result.back() != CutSide::outside && low <= band && high >= -band) near.push_back(t);
+  }
+
+  // Those that hang together with a loop that is cut.
+  const auto place = [&](Index t) {
+    return static_cast<Index>(std::lower_bound(near.begin(), near.end(), t) - near.begin());
+  };
+  const std::vector<Side> edges = sorted_sides(triangles_, near);
+  std::vector<Index> parent = all_apart(static_cast<Index>(near.size()));
+  for_each_run(edges, [&](auto first, auto last) {
+    for (auto next = first + 1; next != last; ++next) {
+      join(parent, place(first->triangle), place(next->triangle));
+    }
+  });
+  std::vector<bool> is_fuzzy(near.size(), false);
+  for (const Index l : kept_) is_fuzzy[root_of(parent, place(loops_[l].triangles.front()))] = true;
+  const auto fuzzy = [&](Index t) { return is_fuzzy[root_of(parent, place(t))]; };
+
+  std::vector<Terminal> nodes(near.size(), Terminal::none);
+  std::vector<CutEdge> graph;
+  bool has_source = false, has_sink = false;
+  for_each_run(edges, [&](auto first, auto last) {
+    if (!fuzzy(first->triangle)) return;
+    const Index a = first->low, b = first->high;
+    if (last - first == 1) {
+      // Beyond the band the surface goes on; within it, or across the plane, it ends.
+      if (std::min(std::abs(distance_[a]), std::abs(distance_[b])) <= band) return;
+      if ((distance_[a] >= 0.0) != (distance_[b] >= 0.0)) return;
+      const bool is_source = side_of(a) == CutSide::behind;
+      nodes[place(first->triangle)] = is_source ? Terminal::source : Terminal::sink;
+      (is_source ? has_source : has_sink) = true;
+      return;
+    }
+    const auto& corners = triangles_.col(first->triangle);
+    int at = 0;
+    while (corners[at] == a || corners[at] == b) ++at;
+    for (auto next = first + 1; next != last; ++next) {
+      const double cost =
+          cut_cost(points_.col(corners[(at + 1) % 3]), points_.col(corners[(at + 2) % 3]),
+                   points_.col(corners[at]), points_.col(next->opposite));
+      graph.push_back({place(first->triangle), place(next->triangle), cost});
+    }
+  });
+  if (!has_source || !has_sink) return result;
+  const std::vector<bool> beyond = min_cut(nodes, graph);
+  for (std::size_t i = 0; i < part_.size(); ++i) {
+    const Index at = place(part_[i]);
+    if (at < static_cast<Index>(near.size()) && near[at] == part_[i] && fuzzy(part_[i])) {
+      result[i] = beyond[at] ? CutSide::ahead : CutSide::behind;
+    }
+  }
+  return result;
+}
+
+}  // namespace pliant

@@ -1,0 +1,70 @@
+// Cutting a part of a mesh along a plane: the loops in which the plane meets it, which of them are
+// needed, and the natural boundary near them. Kho and Garland, section 4.2.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+/// One connected run of triangles that the plane crosses.
+struct CutLoop {
+  std::vector<Index> triangles;
+  Points crossings;  ///< where the plane meets their edges, 3 x k
+  Index behind = 0;  ///< the pieces it joins: points that hang together on one side of the plane
+  Index ahead = 0;
+};
+
+/// Where a triangle lies: outside the cut part, or on one side of the cut.
+enum class CutSide : std::uint8_t { outside, behind, ahead };
+
+class PlaneCut {
+ public:
+  /// points: 3 x p; part: the triangles to cut, ascending ids; distance: signed, of every point
+  /// from the plane (at least 0 is ahead). Keeps references to all of them.
+  PlaneCut(const Points& points, const Triangles& triangles, std::span<const Index> part,
+           std::span<const double> distance);
+
+  const std::vector<CutLoop>& loops() const { return loops_; }
+
+  /// A number for every point, equal where points hang together through the part.
+  std::vector<Index> components() const;
+
+  /// Chooses the loops to cut along: `first`, and of the others, in order, those without which the
+  /// two parts that `first` separates would be one. What the part's other components are is
+  /// outside. Returns the loops, ascending.
+  const std::vector<Index>& separate(Index first);
+
+  /// The side of every triangle of the part after `separate`, along the cheapest boundary through
+  /// the triangles within `band` of the plane that hang together with the loops: edges cost their
+  /// length, less where the surface is creased, least where it is creased inwards.
+  /// Where the band leaves nothing on a side, the plane itself decides.
+  std::vector<CutSide> sides(double band) const;
+
+ private:
+  CutSide side_of(Index point) const;
+  bool crossed(Index triangle) const;
+  void find_pieces();
+  void find_loops();
+
+  const Points& points_;
+  const Triangles& triangles_;
+  std::span<const Index> part_;
+  std::span<const double> distance_;
+  std::vector<Index> piece_;  ///< of every point
+  std::vector<CutLoop> loops_;
+  std::vector<Index> group_;  ///< of every piece after `separate`
+  Index behind_ = -1, ahead_ = -1;
+  std::vector<Index> kept_;
+};
+
+/// What it costs to cut along an edge between the triangles with corners (a, b, c) and (b, a, d):
+/// length (1 - eta bend / pi), with bend the angle between their normals, eta 1 where the surface
+/// is creased inwards and 0.2 where outwards; never below 1 % of the length.
+double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                const Eigen::Vector3d& d);
+
+}  // namespace pliant

@@ -1,0 +1,316 @@
+#include "pliant/sketch/region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "pliant/sketch/plane_cut.h"
+#include "pliant/sketch/stroke.h"
+
+namespace pliant {
+namespace {
+
+constexpr double band_pixels = 5.0;  // section 4.2.1
+constexpr double end_share = 0.1;    // of the stroke: how far from its end a section may be
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Index untouched = -1;
+
+/// A plane that contains the view's direction.
+struct ScreenLine {
+  Eigen::Vector2d point;
+  Eigen::Vector2d normal;  ///< unit, ahead
+};
+
+std::vector<double> distances(const SeenShape& shape, const ScreenLine& line) {
+  std::vector<double> result(shape.view.cols());
+  for (Index p = 0; p < shape.view.cols(); ++p) {
+    result[p] = line.normal.dot(shape.view.col(p).head<2>() - line.point);
+  }
+  return result;
+}
+
+std::vector<Index> with_label(const std::vector<Index>& labels, Index label) {
+  std::vector<Index> part;
+  for (Index t = 0; t < static_cast<Index>(labels.size()); ++t) {
+    if (labels[t] == label) part.push_back(t);
+  }
+  return part;
+}
+
+/// Labels the points by their triangles and numbers the rigid parts without gaps.
+void label_points(const Triangles& triangles, Index points, Region& region) {
+  std::vector<Index> number;  // by label
+  for (Index& label : region.of_triangle) {
+    if (label < first_rigid_label) continue;
+    if (label >= static_cast<Index>(number.size())) number.resize(label + 1, untouched);
+    if (number[label] == untouched) number[label] = first_rigid_label + region.rigid_parts++;
+    label = number[label];
+  }
+  region.of_point.assign(points, untouched);
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    const Index label = region.of_triangle[t];
+    for (const Index p : triangles.col(t)) {
+      Index& known = region.of_point[p];
+      const bool wins = known == untouched || label == static_label ||
+                        (known == region_label && label > region_label);
+      if (wins && known != static_label) known = label;
+    }
+  }
+  for (Index& label : region.of_point) label = std::max(label, static_label);
+}
+
+class RegionFinder {
+ public:
+  RegionFinder(const SeenShape& shape, const LaidStroke& stroke)
+      : shape_(shape), stroke_(stroke), labels_(shape.triangles.cols(), static_label) {}
+
+  Result<Region> find(std::span<const Polyline> partitions) {
+    cut_start();
+    cut_end();
+    for (std::size_t i = 0; i < partitions.size(); ++i) {
+      if (!cut_partition(partitions[i])) {
+        return Status(ErrorCode::invalid_option,
+                      "partitions[" + std::to_string(i) +
+                          "] cuts nothing off the region; expected a line across it");
+      }
+    }
+    Region region;
+    region.of_triangle = std::move(labels_);
+    label_points(shape_.triangles, static_cast<Index>(shape_.view.cols()), region);
+    if (std::find(region.of_point.begin(), region.of_point.end(), region_label) ==
+        region.of_point.end()) {
+      return Status(ErrorCode::invalid_option,
+                    "reference covers no vertex of the shape; expected a stroke over or along it");
+    }
+    return region;
+  }
+
+ private:
+  double band() const { return band_pixels * shape_.camera.pixel_size(stroke_.depth); }
+
+  /// The component most pixels of the stroke meet first, or else that of the point nearest to the
+  /// stroke in the picture.
+  Index component_of_stroke(const std::vector<Index>& component) const {
+    std::vector<Index> met;
+    for (const std::vector<Hit>& hits : stroke_.hits) {
+      if (!hits.empty()) met.push_back(component[shape_.triangles(0, hits.front().triangle)]);
+    }
+    if (!met.empty()) {
+      std::sort(met.begin(), met.end());
+      Index best = met.front();
+      std::ptrdiff_t most = 0;
+      for (auto first = met.begin(); first != met.end();) {
+        const auto last = std::upper_bound(first, met.end(), *first);
+        if (last - first > most) most = last - first, best = *first;
+        first = last;
+      }
+      return best;
+    }
+    double nearest = infinity;
+    Index best = 0;
+    for (const Index p : shape_.triangles.reshaped()) {
+      const Eigen::Vector2d xy = shape_.view.col(p).head<2>();
+      const double distance = (xy - stroke_.curve.point(stroke_.curve.nearest(xy))).squaredNorm();
+      if (distance < nearest) nearest = distance, best = p;
+    }
+    return component[best];
+  }
+
+  /// Where the stroke ends on the shape: the first hit there, else the point of the curve.
+  Eigen::Vector3d anchor(bool at_end) const {
+    const std::vector<Hit>& hits = at_end ? stroke_.hits.back() : stroke_.hits.front();
+    const double depth = hits.empty() ? stroke_.depth : hits.front().depth;
+    const Eigen::Vector2d pixel = stroke_.pixels.col(at_end ? stroke_.pixels.cols() - 1 : 0);
+    const Eigen::Vector2d xy = shape_.camera.at_depth(pixel, depth);
+    return {xy.x(), xy.y(), depth};
+  }
+
+  /// The section of the limb at an end of the stroke: the loop nearest to the anchor, unless it
+  /// belongs to another place along the stroke. -1: none.
+  Index loop_at(const std::vector<CutLoop>& loops, bool at_end) const {
+    const Eigen::Vector3d from = anchor(at_end);
+    double nearest = infinity;
+    Index best = -1;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      Index at = 0;
+      const double distance =
+          (loops[l].crossings.colwise() - from).colwise().squaredNorm().minCoeff(&at);
+      const double s = stroke_.curve.nearest(loops[l].crossings.col(at).head<2>());
+      const bool is_there = at_end ? s >= 1.0 - end_share : s <= end_share;
+      if (is_there && distance < nearest) nearest = distance, best = static_cast<Index>(l);
+    }
+    return best;
+  }
+
+  ScreenLine across_end(bool at_end) const {
+    const Polyline& nodes = stroke_.curve.nodes();
+    const Index last = static_cast<Index>(nodes.cols()) - 1;
+    // Over a few nodes: a stroke often begins and ends with a hook.
+    const Index span = std::max<Index>(1, last / 20);
+    const Eigen::Vector2d along =
+        at_end ? nodes.col(last) - nodes.col(last - span) : nodes.col(span) - nodes.col(0);
+    return {at_end ? nodes.col(last) : nodes.col(0), along.normalized()};
+  }
+
+  void cut_start() {
+    std::vector<Index> all(shape_.triangles.cols());
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<double> distance = distances(shape_, across_end(false));
+    PlaneCut cut(shape_.view, shape_.triangles, all, distance);
+    const std::vector<Index> component = cut.components();
+    const Index mine = component_of_stroke(component);
+    std::vector<CutLoop> loops = cut.loops();
+    for (CutLoop& loop : loops) {
+      // Loops of other components stay in place, out of reach.
+      if (component[loop.ahead] != mine) loop.crossings.setConstant(infinity);
+    }
+    const Index first = loop_at(loops, false);
+    if (first >= 0) cut.separate(first);
+    const std::vector<CutSide> sides =
+        first >= 0 ? cut.sides(band()) : std::vector<CutSide>(all.size(), CutSide::ahead);
+    for (const Index t : all) {
+      const bool covered = sides[t] == CutSide::ahead && component[shape_.triangles(0, t)] == mine;
+      if (covered) labels_[t] = region_label;
+    }
+  }
+
+  void cut_end() {
+    const std::vector<Index> part = with_label(labels_, region_label);
+    const std::vector<double> distance = distances(shape_, across_end(true));
+    PlaneCut cut(shape_.view, shape_.triangles, part, distance);
+    const Index first = loop_at(cut.loops(), true);
+    if (first < 0) return;
+    cut.separate(first);
+    const std::vector<CutSide> sides = cut.sides(band());
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (sides[i] == CutSide::ahead) labels_[part[i]] = first_rigid_label;
+    }
+  }
+
+  /// Of the loops that run under the drawn line, the one nearest to the eye; -1: none.
+  Index loop_under(const std::vector<CutLoop>& loops, const Polyline& ends) const {
+    const Eigen::Vector2d a = ends.col(0);
+    const Eigen::Vector2d along = ends.col(1) - a;
+    double nearest = infinity;
+    Index best = -1;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      for (const auto& crossing : loops[l].crossings.colwise()) {
+        if (!shape_.camera.sees(crossing.z())) continue;
+        const double place = (shape_.camera.pixel(crossing) - a).dot(along) / along.squaredNorm();
+        if (place < 0.0 || place > 1.0 || crossing.z() >= nearest) continue;
+        nearest = crossing.z();
+        best = static_cast<Index>(l);
+      }
+    }
+    return best;
+  }
+
+  bool cut_partition(const Polyline& line) {
+    Polyline ends(2, 2);
+    ends << line.col(0), line.col(line.cols() - 1);
+    const Eigen::Vector2d a = shape_.camera.at_depth(ends.col(0), stroke_.depth);
+    const Eigen::Vector2d along = shape_.camera.at_depth(ends.col(1), stroke_.depth) - a;
+    const ScreenLine plane{a, Eigen::Vector2d(-along.y(), along.x()).normalized()};
+    const std::vector<double> distance = distances(shape_, plane);
+    const std::vector<Index> part = with_label(labels_, region_label);
+    PlaneCut cut(shape_.view, shape_.triangles, part, distance);
+    const Index first = loop_under(cut.loops(), ends);
+    if (first < 0) return false;
+    cut.separate(first);
+    const std::vector<CutSide> sides = cut.sides(band());
+    const CutSide off = far_side(part, sides);
+    cut_off(part, sides, off);
+    return true;
+  }
+
+  /// The side that fewer nodes of the stroke are nearest to.
+  CutSide far_side(const std::vector<Index>& part, const std::vector<CutSide>& sides) const {
+    int votes = 0;
+    for (const auto& node : stroke_.curve.nodes().colwise()) {
+      const Eigen::Vector3d at(node.x(), node.y(), stroke_.depth);
+      double nearest = infinity;
+      CutSide side = CutSide::outside;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const double distance = (shape_.view.col(shape_.triangles(0, part[i])) - at).squaredNorm();
+        if (sides[i] != CutSide::outside && distance < nearest) nearest = distance, side = sides[i];
+      }
+      votes += side == CutSide::ahead ? 1 : -1;
+    }
+    return votes > 0 ? CutSide::behind : CutSide::ahead;
+  }
+
+  /// What is cut off hangs on the static part and joins it, or becomes a rigid part together with
+  /// those that hang on it.
+  void cut_off(const std::vector<Index>& part, const std::vector<CutSide>& sides, CutSide off) {
+    Index largest = region_label;
+    for (const Index label : labels_) largest = std::max(largest, label);
+    std::vector<bool> touched(shape_.view.cols(), false);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (sides[i] != off) continue;
+      for (const Index p : shape_.triangles.col(part[i])) touched[p] = true;
+    }
+    std::vector<bool> hangs_on(largest + 1, false);
+    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
+      for (const Index p : shape_.triangles.col(t)) {
+        if (touched[p]) hangs_on[labels_[t]] = true;
+      }
+    }
+    const Index label = hangs_on[static_label] ? static_label : largest + 1;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (sides[i] == off) labels_[part[i]] = label;
+    }
+    for (Index& other : labels_) {
+      if (other > region_label && other <= largest && hangs_on[other]) other = label;
+    }
+  }
+
+  const SeenShape& shape_;
+  const LaidStroke& stroke_;
+  std::vector<Index> labels_;
+};
+
+}  // namespace
+
+Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels) {
+  LaidStroke laid;
+  laid.pixels = pixels;
+  laid.hits = hits_through(shape.camera, shape.view, shape.triangles, pixels);
+  const auto met = std::find_if(laid.hits.begin(), laid.hits.end(),
+                                [](const std::vector<Hit>& hits) { return !hits.empty(); });
+  laid.depth = met != laid.hits.end() ? met->front().depth : shape.view.row(2).mean();
+  if (!shape.camera.sees(laid.depth)) {
+    return Status(ErrorCode::invalid_option,
+                  "camera.eye has the shape behind it; expected the shape in view");
+  }
+  Polyline nodes(2, pixels.cols());
+  for (Index i = 0; i < pixels.cols(); ++i) {
+    nodes.col(i) = shape.camera.at_depth(pixels.col(i), laid.depth);
+  }
+  laid.curve = PlaneCurve(std::move(nodes));
+  return laid;
+}
+
+Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke,
+                             std::span<const Polyline> partitions) {
+  return RegionFinder(shape, stroke).find(partitions);
+}
+
+Region region_from_labels(const Triangles& triangles, std::span<const Index> of_point) {
+  Region region;
+  region.of_point.assign(of_point.begin(), of_point.end());
+  region.of_triangle.resize(triangles.cols());
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    // A triangle with corners of two kinds lies in the region: that is where it deforms.
+    const Index a = of_point[triangles(0, t)];
+    const bool all_same = a == of_point[triangles(1, t)] && a == of_point[triangles(2, t)];
+    region.of_triangle[t] = all_same ? a : region_label;
+  }
+  for (const Index label : of_point) {
+    region.rigid_parts = std::max(region.rigid_parts, label - region_label);
+  }
+  return region;
+}
+
+}  // namespace pliant

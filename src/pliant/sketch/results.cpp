@@ -1,0 +1,192 @@
+// What a Sketch gives back.
+#include <algorithm>
+#include <utility>
+
+#include "pliant/geometry/normals.h"
+#include "pliant/geometry/point_grid.h"
+#include "pliant/sketch/sketch_impl.h"
+
+namespace pliant {
+
+Index SketchImpl::point_of(Index vertex) const {
+  return vertex < shape->input_size() ? shape->point_of_vertex()[vertex]
+                                      : point_of_added[vertex - shape->input_size()];
+}
+
+Points SketchImpl::of_vertices(const Points& of_points) const {
+  const Index count = shape->input_size() + static_cast<Index>(point_of_added.size());
+  Points result(3, count);
+  for (Index v = 0; v < count; ++v) result.col(v) = of_points.col(point_of(v));
+  return result;
+}
+
+Triangles SketchImpl::triangles() const {
+  if (!refinement) return shape->triangles();
+  Triangles result(3, static_cast<Index>(refinement->triangles.size() / 3));
+  for (Index i = 0; i < result.size(); ++i) {
+    result(i % 3, i / 3) = point_of(static_cast<Index>(refinement->triangles[i]));
+  }
+  return result;
+}
+
+const Limb& SketchImpl::limb_of(Index point) const {
+  for (const Limb& limb : limbs) {
+    if (limb.moves(point)) return limb;
+  }
+  return limbs.front();
+}
+
+namespace {
+
+/// A curve on the plane of a limb, in space.
+Points in_space(const Limb& limb, const PlaneCurve& curve) {
+  Points points(3, curve.size());
+  for (Index i = 0; i < curve.size(); ++i) {
+    const Eigen::Vector2d xy = curve.nodes().col(i);
+    points.col(i) = limb.camera().to_world({xy.x(), xy.y(), limb.depth()});
+  }
+  return points;
+}
+
+void append(StateTable& table, const Points& points) {
+  table.data.insert(table.data.end(), points.data(), points.data() + points.size());
+}
+
+}  // namespace
+
+const Shape& Sketch::shape() const { return *impl_->shape; }
+const Refinement* Sketch::refinement() const {
+  return impl_->refinement ? &*impl_->refinement : nullptr;
+}
+
+std::vector<Index> Sketch::labels() const {
+  std::vector<Index> labels(impl_->shape->input_size(), static_label);
+  Index rigid_before = 0;
+  for (const Limb& limb : impl_->limbs) {
+    for (Index v = 0; v < static_cast<Index>(labels.size()); ++v) {
+      const Index label = limb.region().of_point[impl_->point_of(v)];
+      if (label == static_label) continue;
+      labels[v] = label + (label >= first_rigid_label ? rigid_before : 0);
+    }
+    rigid_before += limb.region().rigid_parts;
+  }
+  return labels;
+}
+
+std::vector<double> Sketch::parameters() const {
+  std::vector<double> s;
+  const Index count = impl_->shape->input_size() + static_cast<Index>(impl_->point_of_added.size());
+  for (Index v = 0; v < count; ++v) {
+    const Index p = impl_->point_of(v);
+    s.push_back(impl_->limb_of(p).s()[p]);
+  }
+  return s;
+}
+
+Points Sketch::reference() const { return in_space(impl_->limbs.front(), impl_->curve()); }
+
+Points Sketch::target() const {
+  return in_space(impl_->limbs.front(), bent(impl_->curve(), impl_->whole_pose(), impl_->morph));
+}
+
+Points Sketch::positions() const { return impl_->of_vertices(impl_->world); }
+
+Points Sketch::rest() const {
+  Points points = impl_->world;
+  points.leftCols(impl_->shape->points().cols()) = impl_->shape->points();
+  if (impl_->refinement) {
+    for (std::size_t i = 0; i < impl_->point_of_added.size(); ++i) {
+      const auto [a, b] = impl_->refinement->parents[i];
+      points.col(impl_->point_of_added[i]) =
+          0.5 * (points.col(impl_->point_of(a)) + points.col(impl_->point_of(b)));
+    }
+  }
+  return impl_->of_vertices(points);
+}
+
+Points Sketch::normals() const {
+  return impl_->of_vertices(point_normals(impl_->world, impl_->triangles()));
+}
+
+SketchSeed Sketch::seed(double spacing) const {
+  const Shape& shape = *impl_->shape;
+  const std::vector<Index> labels = this->labels();
+  const double reach = std::max(spacing, 1e-9) * shape.diagonal();
+  const PointGrid grid(shape.points(), std::max(reach, 1e-300));
+  std::vector<bool> taken(shape.points().cols(), false);
+  SketchSeed seed;
+  for (Index v = 0; v < shape.input_size(); ++v) {
+    const Index p = impl_->point_of(v);
+    if (labels[v] == static_label) {
+      seed.fixed.push_back(v);
+      continue;
+    }
+    bool wanted = true;
+    if (labels[v] == region_label) {
+      grid.for_each_near(shape.points().col(p), [&](Index other, double) {
+        if (other != p && taken[other]) wanted = false;
+      });
+    }
+    if (!wanted) continue;
+    taken[p] = labels[v] == region_label;
+    seed.vertices.push_back(v);
+  }
+  seed.targets.resize(3, static_cast<Index>(seed.vertices.size()));
+  for (std::size_t i = 0; i < seed.vertices.size(); ++i) {
+    seed.targets.col(static_cast<Index>(i)) = impl_->world.col(impl_->point_of(seed.vertices[i]));
+  }
+  return seed;
+}
+
+/// Beside the contract's tables: `normals`, the axes of `angles`, one a side; with a mirror `sides`
+/// (of every vertex: 0 drawn, 1 mirrored), and the curves of the second side follow those of the
+/// first. With twist or scale: `joints`, `twists` (right-handed about the joints' curve) and
+/// `scales`, applied before the bend; where nothing bends `angles` are the twists.
+State Sketch::save() const {
+  const Impl& impl = *impl_;
+  const SketchPose pose = impl.whole_pose();
+  const bool with_joints = pose.twists() || pose.scales();
+  StateTable labels{"labels", 1, true, {}}, s{"s", 1, false, {}}, angles{"angles", 1, false, {}},
+      reference{"reference", 3, false, {}}, target{"target", 3, false, {}},
+      normals{"normals", 3, false, {}}, sides{"sides", 1, true, {}}, joints{"joints", 3, false, {}},
+      twists{"twists", 1, false, {}}, scales{"scales", 1, false, {}};
+  for (const Index label : this->labels()) labels.data.push_back(label);
+  s.data = parameters();
+  for (Index v = 0; v < static_cast<Index>(s.data.size()); ++v) {
+    const Index p = impl.point_of(v);
+    const Limb& limb = impl.limb_of(p);
+    const bool mirrored = &limb != &impl.limbs.front();
+    const double twist = impl.morph * limb.twist()[p] * (mirrored ? -1.0 : 1.0);
+    angles.data.push_back(pose.bends() ? impl.morph * limb.bend()[p] : twist);
+    twists.data.push_back(twist);
+    scales.data.push_back(1.0 + impl.morph * (limb.scale()[p] - 1.0));
+    sides.data.push_back(mirrored);
+  }
+  for (const Limb& limb : impl.limbs) {
+    append(reference, in_space(limb, limb.reference()));
+    append(target, in_space(limb, bent(limb.reference(), pose, impl.morph)));
+    const Eigen::Matrix3d& axes = limb.camera().axes();
+    append(normals, axes.row(0).cross(axes.row(1)).transpose());
+    Points places = limb.joints();
+    for (auto place : places.colwise()) place = limb.camera().to_world(place);
+    append(joints, places);
+  }
+  State state;
+  for (StateTable* table : {&labels, &s, &angles, &reference, &target, &normals}) {
+    state.tables.push_back(std::move(*table));
+  }
+  if (impl.limbs.size() > 1) state.tables.push_back(std::move(sides));
+  if (with_joints) {
+    for (StateTable* table : {&joints, &twists, &scales}) state.tables.push_back(std::move(*table));
+  }
+  if (impl.refinement) {
+    append(state.add("rest", 3, false), rest().rightCols(impl.point_of_added.size()));
+    StateTable& parents = state.add("parents", 2, true);
+    for (const auto& [a, b] : impl.refinement->parents) {
+      parents.data.insert(parents.data.end(), {static_cast<double>(a), static_cast<double>(b)});
+    }
+  }
+  return state;
+}
+
+}  // namespace pliant

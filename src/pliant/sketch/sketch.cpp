@@ -1,0 +1,351 @@
+#include "pliant/sketch/sketch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "pliant/sketch/sketch_impl.h"
+
+namespace pliant {
+namespace {
+
+Status invalid(std::string message) { return {ErrorCode::invalid_option, std::move(message)}; }
+
+SeenShape seen_through(const Camera& camera, const Shape& shape) {
+  SeenShape seen{camera, Points(3, shape.points().cols()), shape.triangles()};
+  for (Index p = 0; p < seen.view.cols(); ++p) {
+    seen.view.col(p) = camera.to_view(shape.points().col(p));
+  }
+  return seen;
+}
+
+Status check_options(const Shape& shape, const SketchOptions& options) {
+  for (std::size_t i = 0; i < options.partitions.size(); ++i) {
+    const std::string name = "partitions[" + std::to_string(i) + "]";
+    if (Status status = check_stroke(options.partitions[i], name.c_str()); !status.ok()) {
+      return status;
+    }
+  }
+  if (options.mirror) {
+    const Plane& plane = *options.mirror;
+    if (!plane.point.allFinite() || !plane.normal.allFinite() ||
+        !(plane.normal.stableNorm() > 0.0)) {
+      return invalid("mirror is not a plane; expected a finite point and a finite normal not zero");
+    }
+  }
+  if (options.labels.empty()) return {};
+  if (options.mirror || !options.partitions.empty()) {
+    return invalid("labels are given with partitions or mirror; expected one or the other");
+  }
+  if (static_cast<Index>(options.labels.size()) != shape.input_size()) {
+    return invalid("labels has length " + std::to_string(options.labels.size()) + "; expected " +
+                   std::to_string(shape.input_size()) + ", one a vertex");
+  }
+  return {};
+}
+
+/// Labels of the points; every rigid number below the largest must occur.
+Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<Index>& labels) {
+  std::vector<Index> of_point(shape.points().cols());
+  std::vector<bool> used(shape.points().cols() + 2, false);
+  for (Index v = 0; v < shape.input_size(); ++v) {
+    const Index point = shape.point_of_vertex()[v];
+    const Index first = labels[shape.vertex_of_point()[point]];
+    const std::string name = "labels[" + std::to_string(v) + "] is " + std::to_string(labels[v]);
+    if (labels[v] < 0 || labels[v] >= static_cast<Index>(used.size())) {
+      return invalid(name + "; expected 0, 1 or a rigid part from 2 on");
+    }
+    if (labels[v] != first) {
+      return invalid(name + "; expected " + std::to_string(first) +
+                     " as that of the vertex at the same position");
+    }
+    of_point[point] = labels[v];
+    used[labels[v]] = true;
+  }
+  const auto last = std::find(used.rbegin(), used.rend(), true).base();
+  const auto gap = std::find(used.begin() + 1, last, false);
+  if (!used[region_label] || gap != last) {
+    const auto missing = used[region_label] ? gap - used.begin() : region_label;
+    return invalid("labels has no vertex with label " + std::to_string(missing) +
+                   "; expected a region (1) and rigid parts numbered without gaps");
+  }
+  return of_point;
+}
+
+/// One filtered stroke on a shape seen through a camera, with a region chosen or given.
+Result<Limb> make_limb(const Shape& shape, const Camera& camera, const Polyline& pixels,
+                       std::span<const Polyline> partitions, const Region* given, bool mirrored) {
+  SeenShape seen = seen_through(camera, shape);
+  Result<LaidStroke> laid = lay_stroke(seen, pixels);
+  if (!laid.ok()) return laid.status();
+  if (given != nullptr) return Limb(std::move(seen), std::move(*laid), *given, mirrored);
+  Result<Region> region = choose_region(seen, *laid, partitions);
+  if (!region.ok()) return region.status();
+  return Limb(std::move(seen), std::move(*laid), std::move(*region), mirrored);
+}
+
+Status check_apart(const Region& a, const Region& b) {
+  for (std::size_t p = 0; p < a.of_point.size(); ++p) {
+    if (a.of_point[p] != static_label && b.of_point[p] != static_label) {
+      return invalid("mirror reflects the region onto itself; expected a limb on one side of it");
+    }
+  }
+  return {};
+}
+
+/// What of the reference an unfinished target has not reached yet, turned to go on from its end.
+Stroke continued(const Stroke& target, const Polyline& reference) {
+  const double drawn = length_of(target), whole = length_of(reference);
+  const Index last = static_cast<Index>(reference.cols()) - 1;
+  const Index from = static_cast<Index>(std::ceil(drawn / whole * last));
+  if (from >= last) return target;
+  // The direction of the last few pixels: single samples are too noisy.
+  Index before = static_cast<Index>(target.cols()) - 1;
+  const Eigen::Vector2d end = target.col(before);
+  while (before > 0 && (end - target.col(before)).norm() < 2 * min_stroke_segment) --before;
+  const Eigen::Vector2d u = reference.col(from + 1) - reference.col(from);
+  const Eigen::Vector2d v = end - target.col(before);
+  const double angle = std::atan2(v.y(), v.x()) - std::atan2(u.y(), u.x());
+  const Eigen::Rotation2D<double> turn(angle);
+  const Eigen::Index kept = target.cols();
+  Stroke result(2, kept + last - from);
+  result.leftCols(kept) = target;
+  for (Index i = from + 1; i <= last; ++i) {
+    result.col(kept + i - from - 1) = end + turn * (reference.col(i) - reference.col(from));
+  }
+  return result;
+}
+
+}  // namespace
+
+// -- What it holds.
+
+SketchPose SketchImpl::whole_pose() const {
+  SketchPose pose = base;
+  if (turning == Profile::identity()) return pose;
+  const double step = 1.0 / static_cast<double>(curve().size() - 1);
+  for (std::size_t i = 0; i < pose.turns.size(); ++i) {
+    const double s = step * static_cast<double>(i + 1);
+    pose.turns[i] += (turning(s) - s) * step;  // eq. 8, whatever the number of nodes
+  }
+  return pose;
+}
+
+void SketchImpl::pose_changed() {
+  const SketchPose pose = whole_pose();
+  for (Limb& limb : limbs) limb.set_pose(pose);
+  show();
+}
+
+void SketchImpl::show() {
+  const Index points = static_cast<Index>(shape->points().cols());
+  world.leftCols(points) = shape->points();
+  if (refinement) {
+    for (std::size_t i = 0; i < refinement->parents.size(); ++i) {
+      const auto [a, b] = refinement->parents[i];
+      const Index p = point_of_added[i];
+      world.col(p) = 0.5 * (world.col(point_of(a)) + world.col(point_of(b)));
+    }
+  }
+  for (const Limb& limb : limbs) limb.show(morph, world);
+}
+
+Status SketchImpl::find_joints() {
+  for (Limb& limb : limbs) {
+    if (Status status = limb.find_joints(); !status.ok()) return status;
+  }
+  return {};
+}
+
+// -- Choosing.
+
+Sketch::Sketch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Sketch::~Sketch() = default;
+
+Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shape,
+                                               const Camera& camera, const Stroke& reference,
+                                               const SketchOptions& options) {
+  if (shape->triangles().cols() == 0) {
+    return Status(ErrorCode::invalid_shape,
+                  "the shape has no triangles; expected a mesh to sketch on");
+  }
+  if (Status status = check_stroke(reference, "reference"); !status.ok()) return status;
+  if (Status status = check_options(*shape, options); !status.ok()) return status;
+
+  auto impl = std::make_unique<Impl>();
+  impl->shape = shape;
+  impl->mirror = options.mirror;
+  impl->smooth = options.smooth;
+  impl->reference_pixels = filtered(reference, nodes_for(reference));
+  Region given;
+  if (!options.labels.empty()) {
+    Result<std::vector<Index>> labels = point_labels(*shape, options.labels);
+    if (!labels.ok()) return labels.status();
+    given = region_from_labels(shape->triangles(), *labels);
+  }
+  const Region* known = options.labels.empty() ? nullptr : &given;
+  for (const bool mirrored : {false, true}) {
+    if (mirrored && !options.mirror) break;
+    Result<Limb> limb = make_limb(*shape, mirrored ? camera.mirrored(*options.mirror) : camera,
+                                  impl->reference_pixels, options.partitions, known, mirrored);
+    if (!limb.ok()) return limb.status();
+    impl->limbs.push_back(std::move(*limb));
+  }
+  if (options.mirror) {
+    if (Status status = check_apart(impl->limbs[0].region(), impl->limbs[1].region());
+        !status.ok()) {
+      return status;
+    }
+  }
+  impl->base = SketchPose::rest(impl->curve());
+  for (Limb& limb : impl->limbs) limb.set_smooth(options.smooth);
+  impl->world = shape->points();
+  return std::unique_ptr<Sketch>(new Sketch(std::move(impl)));
+}
+
+Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
+  if (Status status = check_stroke(reference, "reference"); !status.ok()) return status;
+  const Polyline pixels = filtered(reference, nodes_for(reference));
+  std::vector<Limb> limbs;
+  for (std::size_t k = 0; k < impl_->limbs.size(); ++k) {
+    Result<Limb> limb = make_limb(*impl_->shape, k == 0 ? camera : camera.mirrored(*impl_->mirror),
+                                  pixels, {}, &impl_->limbs[k].region(), k == 1);
+    if (!limb.ok()) return limb.status();
+    limbs.push_back(std::move(*limb));
+  }
+  unrefine();
+  impl_->limbs = std::move(limbs);
+  impl_->reference_pixels = pixels;
+  for (Limb& limb : impl_->limbs) limb.set_smooth(impl_->smooth);
+  reset();
+  return {};
+}
+
+// -- Posing.
+
+Status Sketch::bend(const Stroke& target, bool unfinished) {
+  if (Status status = check_stroke(target, "target"); !status.ok()) return status;
+  const PlaneCurve& reference = impl_->curve();
+  const Stroke whole = unfinished ? continued(target, impl_->reference_pixels) : target;
+  Polyline nodes = filtered(whole, reference.size());
+  for (auto node : nodes.colwise()) {
+    node = impl_->limbs.front().camera().at_depth(node, impl_->limbs.front().depth());
+  }
+  const PlaneCurve curve(std::move(nodes));
+  SketchPose& pose = impl_->base;
+  pose.heading = angle_between(curve.heading(), reference.heading());
+  pose.length = curve.step() / reference.step();
+  for (std::size_t i = 0; i < pose.turns.size(); ++i) {
+    pose.turns[i] = curve.turns()[i] - reference.turns()[i];
+  }
+  impl_->pose_changed();
+  return {};
+}
+
+void Sketch::unbend() {
+  SketchPose& pose = impl_->base;
+  pose.heading = 0.0;
+  pose.length = 1.0;
+  std::fill(pose.turns.begin(), pose.turns.end(), 0.0);
+  impl_->pose_changed();
+}
+
+Status Sketch::twist(double radians) {
+  if (!std::isfinite(radians)) return invalid("twist is not finite; expected an angle");
+  if (radians != 0.0) {
+    if (Status status = impl_->find_joints(); !status.ok()) return status;
+  }
+  impl_->twist_angle = radians;
+  impl_->base.twist = radians == 0.0 ? Profile::constant(0.0) : impl_->twist_speed.times(radians);
+  impl_->pose_changed();
+  return {};
+}
+
+namespace {
+
+Status check_scale(const Profile& factor) {
+  for (const auto& [s, f] : factor.points()) {
+    if (f > 0.0) continue;
+    char text[120];
+    std::snprintf(text, sizeof text, "scale is %.6g at s = %.6g; expected factors above 0", f, s);
+    return invalid(text);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status Sketch::set_scale(const Profile& factor) {
+  if (Status status = check_scale(factor); !status.ok()) return status;
+  if (Status status = impl_->find_joints(); !status.ok()) return status;
+  impl_->base.scale = factor;
+  impl_->pose_changed();
+  return {};
+}
+
+void Sketch::set_turning(const Profile& offset) {
+  impl_->turning = offset;
+  impl_->pose_changed();
+}
+
+void Sketch::set_twist_speed(const Profile& speed) {
+  impl_->twist_speed = speed;
+  if (impl_->twist_angle == 0.0) return;
+  impl_->base.twist = speed.times(impl_->twist_angle);
+  impl_->pose_changed();
+}
+
+bool Sketch::smooth() const { return impl_->smooth; }
+
+void Sketch::set_smooth(bool smooth) {
+  impl_->smooth = smooth;
+  for (Limb& limb : impl_->limbs) limb.set_smooth(smooth);
+  impl_->pose_changed();
+}
+
+Status Sketch::set_morph(double t) {
+  if (!(t >= 0.0 && t <= 1.0)) {
+    return invalid("morph is " + std::to_string(t) + "; expected a number from 0 to 1");
+  }
+  impl_->morph = t;
+  impl_->show();
+  return {};
+}
+
+void Sketch::reset() {
+  impl_->base = SketchPose::rest(impl_->curve());
+  impl_->turning = impl_->twist_speed = Profile::identity();
+  impl_->twist_angle = 0.0;
+  impl_->morph = 1.0;
+  impl_->pose_changed();
+}
+
+SketchPose Sketch::pose() const { return impl_->whole_pose(); }
+
+Status Sketch::set_pose(const SketchPose& pose) {
+  if (pose.turns.size() != impl_->base.turns.size()) {
+    return invalid("pose.turns has length " + std::to_string(pose.turns.size()) + "; expected " +
+                   std::to_string(impl_->base.turns.size()) + ", those of this reference");
+  }
+  const bool finite = std::isfinite(pose.heading) && std::isfinite(pose.length) &&
+                      std::all_of(pose.turns.begin(), pose.turns.end(),
+                                  [](double turn) { return std::isfinite(turn); });
+  if (!finite || !(pose.length > 0.0)) {
+    return invalid("pose has a number that is not finite or no length; expected those of pose()");
+  }
+  if (Status status = check_scale(pose.scale); !status.ok()) return status;
+  if (pose.twists() || pose.scales()) {
+    if (Status status = impl_->find_joints(); !status.ok()) return status;
+  }
+  impl_->base = pose;
+  impl_->turning = impl_->twist_speed = Profile::identity();
+  impl_->twist_angle = 0.0;
+  impl_->pose_changed();
+  return {};
+}
+
+}  // namespace pliant
