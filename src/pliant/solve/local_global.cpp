@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pliant {
 namespace {
@@ -10,7 +11,39 @@ namespace {
 constexpr double kSufficient = 1e-4;
 constexpr int kMaxHalvings = 40;
 
+Index find_root(std::vector<Index>& parent, Index p) {
+  while (parent[p] != p) p = parent[p] = parent[parent[p]];
+  return p;
+}
+
 }  // namespace
+
+std::vector<Index> parts_of(const BlockMatrix& matrix) {
+  std::vector<Index> parent(matrix.nodes), label(matrix.nodes, -1), parts(matrix.nodes);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& [a, b] : matrix.edges) parent[find_root(parent, b)] = find_root(parent, a);
+  Index count = 0;
+  for (Index p = 0; p < matrix.nodes; ++p) {
+    Index& of_root = label[find_root(parent, p)];
+    if (of_root < 0) of_root = count++;
+    parts[p] = of_root;
+  }
+  return parts;
+}
+
+std::vector<bool> hold_one_a_part(const std::vector<Index>& parts, std::vector<bool>& held) {
+  std::vector<bool> holds(parts.size(), false), anchored(parts.size());  // of parts, of points
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (held[p]) holds[parts[p]] = true;
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) anchored[p] = holds[parts[p]];
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (holds[parts[p]]) continue;
+    held[p] = true;
+    holds[parts[p]] = true;
+  }
+  return anchored;
+}
 
 Status LocalGlobal::set_up(const BlockMatrix& matrix, std::vector<bool> held) {
   free_of_point_.assign(held.size(), -1);
@@ -130,8 +163,8 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
       memory_.remember(step_, previous_);
       energy_ = energy;
       const double largest = step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff();
-      return {true,
-              change <= tolerance * std::max(energy, noise) && largest <= tolerance * diagonal};
+      return {true, change <= tolerance * std::max(std::abs(energy), noise) &&
+                        largest <= tolerance * diagonal};
     }
     // Lowest point of the parabola through both energies and the slope, within limits.
     const double lowest = -0.5 * slope * alpha / (energy - energy_ - alpha * slope) * alpha;

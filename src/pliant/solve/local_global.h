@@ -15,6 +15,12 @@
 
 namespace pliant {
 
+/// The part of each point, 0 .. : connected through entries of the matrix.
+std::vector<Index> parts_of(const BlockMatrix& matrix);
+/// Holds the first point of every part that has no held one, so that the rest of the matrix is
+/// definite. Returns which points belong to parts that were held before.
+std::vector<bool> hold_one_a_part(const std::vector<Index>& parts, std::vector<bool>& held);
+
 class LocalGlobal {
  public:
   /// Takes the points that are not held as unknowns, analyses and factorises.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -23,25 +22,6 @@ constexpr double kSmallTurn = 0.05;
 constexpr double kRigid = 1e-9;
 /// Energies below this, for weights of 1 and over the squared diagonal, are rounding.
 constexpr double kNoise = 1e-20;
-
-Index find_root(std::vector<Index>& parent, Index p) {
-  while (parent[p] != p) p = parent[p] = parent[parent[p]];
-  return p;
-}
-
-/// Component of each point in the graph of a matrix.
-std::vector<Index> components(const BlockMatrix& matrix) {
-  std::vector<Index> parent(matrix.nodes), label(matrix.nodes, -1), of_point(matrix.nodes);
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& [a, b] : matrix.edges) parent[find_root(parent, b)] = find_root(parent, a);
-  Index count = 0;
-  for (Index p = 0; p < matrix.nodes; ++p) {
-    Index& of_root = label[find_root(parent, p)];
-    if (of_root < 0) of_root = count++;
-    of_point[p] = of_root;
-  }
-  return of_point;
-}
 
 /// A model, and weight * sum |x - target|^2 over the points of handles.
 class WithSoftHandles final : public LocalModel {
@@ -127,28 +107,18 @@ Points LocalGlobalDeformer::Core::constrained(const LocalGlobalDeformer& self) c
 
 Status LocalGlobalDeformer::Core::set_up(const LocalGlobalDeformer& self) {
   const BlockMatrix matrix = energy(self).matrix();
-  component = components(matrix);
-  std::vector<bool> held(matrix.nodes, false), holds(matrix.nodes, false);  // points, components
-  for (Index p : self.fixed_points()) {
-    held[p] = true;
-    holds[component[p]] = true;
-  }
+  component = parts_of(matrix);
+  // A soft handle, too, keeps its part of the shape from floating.
+  std::vector<bool> held(matrix.nodes, false);
+  for (Index p : self.fixed_points()) held[p] = true;
   for (const Handle& handle : self.handles()) {
-    for (Index p : handle.points) {
-      if (!weight) held[p] = true;
-      holds[component[p]] = true;
-    }
+    for (Index p : handle.points) held[p] = true;
   }
-  std::vector<bool> anchored(matrix.nodes);
-  for (Index p = 0; p < matrix.nodes; ++p) anchored[p] = holds[component[p]];
-  for (Index p = 0; p < matrix.nodes; ++p) {
-    // What floats keeps its first point.
-    if (holds[component[p]]) continue;
-    held[p] = true;
-    holds[component[p]] = true;
+  self.model().set_anchored(hold_one_a_part(component, held));
+  for (const Handle& handle : self.handles()) {
+    for (Index p : handle.points) held[p] = !weight;
   }
   if (Status s = solver.set_up(matrix, std::move(held)); !s.ok()) return s;
-  self.model().set_anchored(anchored);
   pattern_changed = matrix_changed = false;
   targets_changed = true;
   iteration = 0;

@@ -36,10 +36,6 @@ class LocalGlobalDeformer : public Deformer {
   /// The energy of the method.
   virtual LocalModel& model() const = 0;
 
-  /// A coarse deformer of the same shape, quick to settle, whose result is a start for large
-  /// motions; made when the first one comes. nullptr: none.
-  virtual std::unique_ptr<Deformer> make_coarse() const { return nullptr; }
-
   /// Exact handles (empty) or soft ones with this weight.
   void set_constraint_weight(std::optional<double> weight);
   /// After a change of the model; the next step pays for it.
