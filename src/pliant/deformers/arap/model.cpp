@@ -1,6 +1,7 @@
 #include "pliant/deformers/arap/model.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "pliant/deformers/arap/rotations.h"
 #include "pliant/geometry/cotangent.h"
@@ -52,14 +53,12 @@ ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
     }
     first_cell_.push_back(cells_.size());
   }
-  if (options.smoothness > 0.0)
-    add_rows(shape, table, cotangents, options.smoothness * shape.diagonal());
+  if (options.smoothness > 0.0) add_rows(triangles, table, cotangents, options.smoothness);
   covariances_.resize(9, rest_.cols());
 }
 
-void ArapModel::add_rows(const Shape& shape, const EdgeTable& table, const Points& cotangents,
-                         double length) {
-  const Triangles& triangles = shape.triangles();
+void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
+                         const Points& cotangents, double smoothness) {
   std::vector<double> area(rest_.cols(), 0.0);
   for (Index t = 0; t < triangles.cols(); ++t) {
     // Half cotangents times squared edges sum up to twice the area.
@@ -82,9 +81,10 @@ void ArapModel::add_rows(const Shape& shape, const EdgeTable& table, const Point
     entries[b].emplace_back(a, weight);
     if (table.triangles.row(e).size() == 1) inner[a] = inner[b] = false;
   }
+  const double squared = smoothness * smoothness * std::accumulate(area.begin(), area.end(), 0.0);
   for (Index i = 0; i < rest_.cols(); ++i) {
     if (!inner[i] || !(area[i] > 0.0)) continue;
-    rows_.push_back({i, length * length / area[i], std::move(entries[i])});
+    rows_.push_back({i, squared / area[i], std::move(entries[i])});
   }
 }
 

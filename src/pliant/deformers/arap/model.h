@@ -37,11 +37,11 @@ class ArapModel final : public LocalModel {
   /// A row of the cotangent Laplacian of an inner point, as a weighted vector of its cell.
   struct Row {
     Index point;
-    double weight;                                  ///< (smoothness diagonal)^2 / area
+    double weight;                                  ///< (smoothness size)^2 / area
     std::vector<std::pair<Index, double>> entries;  ///< neighbours and their weights
   };
 
-  void add_rows(const Shape& shape, const EdgeTable& table, const Points& cotangents,
+  void add_rows(const Triangles& triangles, const EdgeTable& table, const Points& cotangents,
                 double smoothness);
   /// sum_k w_k |L_k x - Q_k L_k from|^2, its parts and half its gradient.
   std::array<double, 2> residuals(const Points& from, const Rotations& turns, const Points& x,

@@ -14,7 +14,7 @@ Status ArapOptions::validate() const {
     return invalid("constraintWeight", *constraint_weight, "a finite number above 0");
   }
   if (!(smoothness >= 0.0 && smoothness <= 1.0)) {
-    return invalid("smoothness", smoothness, "a part of the diagonal, 0 to 1");
+    return invalid("smoothness", smoothness, "a part of the size, 0 to 1");
   }
   return {};
 }

@@ -26,10 +26,11 @@ struct ArapOptions {
   /// constraint_weight times the sum of squared distances from the targets. Fixed points are exact
   /// in any case.
   std::optional<double> constraint_weight = {};
-  /// Length, as a part of the shape's diagonal, below which bending is kept away: 0 is plain ARAP,
-  /// which grows a spike under a handle of a single vertex; 0.05 to 0.2 give a smooth hill. The
-  /// energy gains (smoothness diagonal)^2 sum_i |delta'_i - R_i delta_i|^2 / a_i with delta the
-  /// cotangent Laplacian and a the area of an inner point; handles stay exact.
+  /// Length, as a part of the square root A of the surface's area, below which bending is kept
+  /// away: 0 is plain ARAP, which grows a spike under a handle of a single vertex; 0.05 to 0.2 give
+  /// a smooth hill. The energy gains (smoothness A)^2 sum_i |delta'_i - R_i delta_i|^2 / a_i over
+  /// inner points, with delta the cotangent Laplacian and a_i a third of the area around; handles
+  /// stay exact.
   double smoothness = 0.0;
 
   /// Errors: invalid_option, naming the option, its value and what was expected.
