@@ -30,7 +30,7 @@ class PlaneCut {
 
   const std::vector<CutLoop>& loops() const { return loops_; }
 
-  /// A number for every point, equal where points hang together through the part.
+  /// Of every point the smallest id among those it hangs together with through the part.
   std::vector<Index> components() const;
 
   /// Chooses the loops to cut along: `first`, and of the others, in order, those without which the

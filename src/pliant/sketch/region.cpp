@@ -13,7 +13,10 @@ namespace pliant {
 namespace {
 
 constexpr double band_pixels = 5.0;  // section 4.2.1
-constexpr double end_share = 0.1;    // of the stroke: how far from its end a section may be
+constexpr double near_share = 0.1;   // of the stroke: how far from its place a section may be,
+constexpr double wide_share = 0.35;  // and how far it may reach along the stroke
+constexpr double slide_step = 0.05;
+constexpr int slides = 10;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Index untouched = -1;
 
@@ -77,6 +80,7 @@ class RegionFinder {
       }
     }
     Region region;
+    region.start = start_;
     region.of_triangle = std::move(labels_);
     label_points(shape_.triangles, static_cast<Index>(shape_.view.cols()), region);
     if (std::find(region.of_point.begin(), region.of_point.end(), region_label) ==
@@ -118,75 +122,108 @@ class RegionFinder {
     return component[best];
   }
 
-  /// Where the stroke ends on the shape: the first hit there, else the point of the curve.
-  Eigen::Vector3d anchor(bool at_end) const {
-    const std::vector<Hit>& hits = at_end ? stroke_.hits.back() : stroke_.hits.front();
+  /// Where the stroke is on the shape: the first hit there, else the point of the curve.
+  Eigen::Vector3d anchor(double s) const {
+    const auto node = static_cast<Index>(std::lround(s * (stroke_.curve.size() - 1)));
+    const std::vector<Hit>& hits = stroke_.hits[node];
     const double depth = hits.empty() ? stroke_.depth : hits.front().depth;
-    const Eigen::Vector2d pixel = stroke_.pixels.col(at_end ? stroke_.pixels.cols() - 1 : 0);
-    const Eigen::Vector2d xy = shape_.camera.at_depth(pixel, depth);
+    const Eigen::Vector2d xy = shape_.camera.at_depth(stroke_.pixels.col(node), depth);
     return {xy.x(), xy.y(), depth};
   }
 
-  /// The section of the limb at an end of the stroke: the loop nearest to the anchor, unless it
-  /// belongs to another place along the stroke. -1: none.
-  Index loop_at(const std::vector<CutLoop>& loops, bool at_end) const {
-    const Eigen::Vector3d from = anchor(at_end);
+  /// The loop nearest to the anchor, unless it belongs to another place along the stroke. -1: none.
+  Index loop_at(const std::vector<CutLoop>& loops, double s) const {
+    const Eigen::Vector3d from = anchor(s);
     double nearest = infinity;
     Index best = -1;
     for (std::size_t l = 0; l < loops.size(); ++l) {
       Index at = 0;
       const double distance =
           (loops[l].crossings.colwise() - from).colwise().squaredNorm().minCoeff(&at);
-      const double s = stroke_.curve.nearest(loops[l].crossings.col(at).head<2>());
-      const bool is_there = at_end ? s >= 1.0 - end_share : s <= end_share;
-      if (is_there && distance < nearest) nearest = distance, best = static_cast<Index>(l);
+      const double place = stroke_.curve.nearest(loops[l].crossings.col(at).head<2>());
+      if (std::abs(place - s) <= near_share && distance < nearest) {
+        nearest = distance;
+        best = static_cast<Index>(l);
+      }
     }
     return best;
   }
 
-  ScreenLine across_end(bool at_end) const {
+  /// Whether all of a loop lies near the place of the stroke where the plane is.
+  bool is_section(const CutLoop& loop, double s) const {
+    for (const auto& crossing : loop.crossings.colwise()) {
+      if (std::abs(stroke_.curve.nearest(crossing.head<2>()) - s) > wide_share) return false;
+    }
+    return true;
+  }
+
+  ScreenLine across(double s) const {
     const Polyline& nodes = stroke_.curve.nodes();
     const Index last = static_cast<Index>(nodes.cols()) - 1;
     // Over a few nodes: a stroke often begins and ends with a hook.
     const Index span = std::max<Index>(1, last / 20);
-    const Eigen::Vector2d along =
-        at_end ? nodes.col(last) - nodes.col(last - span) : nodes.col(span) - nodes.col(0);
-    return {at_end ? nodes.col(last) : nodes.col(0), along.normalized()};
+    const auto node = static_cast<Index>(std::lround(s * last));
+    const Index first = std::min(std::max<Index>(0, node - span / 2), last - span);
+    return {nodes.col(node), (nodes.col(first + span) - nodes.col(first)).normalized()};
+  }
+
+  /// Loops of other components than the stroke's go out of reach.
+  void leave_others_out(const std::vector<Index>& component, std::vector<CutLoop>& loops) {
+    if (component_ < 0) component_ = component_of_stroke(component);
+    for (CutLoop& loop : loops) {
+      if (component[loop.ahead] != component_) loop.crossings.setConstant(infinity);
+    }
+  }
+
+  /// Tries planes across the stroke from one end on and calls take(cut, loop) for the first that
+  /// crosses the limb alone; where none does for that at the end. Returns its place; no call and
+  /// the end's place where no loop is there.
+  template <class Take>
+  double cut_limb(const std::vector<Index>& part, bool at_end, const Take& take) {
+    for (const bool choosy : {true, false}) {
+      for (int k = 0; k <= (choosy ? slides : 0); ++k) {
+        const double s = at_end ? 1.0 - k * slide_step : k * slide_step;
+        const std::vector<double> distance = distances(shape_, across(s));
+        PlaneCut cut(shape_.view, shape_.triangles, part, distance);
+        std::vector<CutLoop> loops = cut.loops();
+        if (!at_end) leave_others_out(cut.components(), loops);
+        const Index first = loop_at(loops, s);
+        if (first < 0 && k == 0) return s;
+        if (first < 0 || (choosy && !is_section(loops[first], s))) continue;
+        cut.separate(first);
+        take(cut.sides(band()));
+        return s;
+      }
+    }
+    return at_end ? 1.0 : 0.0;
   }
 
   void cut_start() {
     std::vector<Index> all(shape_.triangles.cols());
     std::iota(all.begin(), all.end(), 0);
-    const std::vector<double> distance = distances(shape_, across_end(false));
-    PlaneCut cut(shape_.view, shape_.triangles, all, distance);
-    const std::vector<Index> component = cut.components();
-    const Index mine = component_of_stroke(component);
-    std::vector<CutLoop> loops = cut.loops();
-    for (CutLoop& loop : loops) {
-      // Loops of other components stay in place, out of reach.
-      if (component[loop.ahead] != mine) loop.crossings.setConstant(infinity);
-    }
-    const Index first = loop_at(loops, false);
-    if (first >= 0) cut.separate(first);
-    const std::vector<CutSide> sides =
-        first >= 0 ? cut.sides(band()) : std::vector<CutSide>(all.size(), CutSide::ahead);
+    bool cuts = false;
+    start_ = cut_limb(all, false, [&](const std::vector<CutSide>& sides) {
+      cuts = true;
+      for (const Index t : all) {
+        if (sides[t] == CutSide::ahead) labels_[t] = region_label;
+      }
+    });
+    if (cuts) return;
+    const std::vector<double> one_side(shape_.view.cols(), 0.0);
+    const std::vector<Index> component =
+        PlaneCut(shape_.view, shape_.triangles, all, one_side).components();
     for (const Index t : all) {
-      const bool covered = sides[t] == CutSide::ahead && component[shape_.triangles(0, t)] == mine;
-      if (covered) labels_[t] = region_label;
+      if (component[shape_.triangles(0, t)] == component_) labels_[t] = region_label;
     }
   }
 
   void cut_end() {
     const std::vector<Index> part = with_label(labels_, region_label);
-    const std::vector<double> distance = distances(shape_, across_end(true));
-    PlaneCut cut(shape_.view, shape_.triangles, part, distance);
-    const Index first = loop_at(cut.loops(), true);
-    if (first < 0) return;
-    cut.separate(first);
-    const std::vector<CutSide> sides = cut.sides(band());
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      if (sides[i] == CutSide::ahead) labels_[part[i]] = first_rigid_label;
-    }
+    cut_limb(part, true, [&](const std::vector<CutSide>& sides) {
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        if (sides[i] == CutSide::ahead) labels_[part[i]] = first_rigid_label;
+      }
+    });
   }
 
   /// Of the loops that run under the drawn line, the one nearest to the eye; -1: none.
@@ -269,6 +306,8 @@ class RegionFinder {
   const SeenShape& shape_;
   const LaidStroke& stroke_;
   std::vector<Index> labels_;
+  Index component_ = -1;
+  double start_ = 0.0;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "pliant/geometry/normals.h"
 #include "pliant/geometry/point_grid.h"
 #include "pliant/sketch/sketch_impl.h"

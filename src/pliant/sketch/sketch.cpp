@@ -76,16 +76,26 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
   return of_point;
 }
 
-/// One filtered stroke on a shape seen through a camera, with a region chosen or given.
-Result<Limb> make_limb(const Shape& shape, const Camera& camera, const Polyline& pixels,
-                       std::span<const Polyline> partitions, const Region* given, bool mirrored) {
-  SeenShape seen = seen_through(camera, shape);
+/// A filtered stroke on a shape seen through a camera, with a region given.
+Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region, bool mirrored) {
   Result<LaidStroke> laid = lay_stroke(seen, pixels);
   if (!laid.ok()) return laid.status();
-  if (given != nullptr) return Limb(std::move(seen), std::move(*laid), *given, mirrored);
+  return Limb(std::move(seen), std::move(*laid), std::move(region), mirrored);
+}
+
+/// The same with a region chosen. What of the stroke lies before the region is dropped, and
+/// `start` says how much; a start already found is kept.
+Result<Limb> limb_under(SeenShape seen, const Polyline& pixels,
+                        std::span<const Polyline> partitions, bool mirrored, double& start) {
+  Result<LaidStroke> laid = lay_stroke(seen, without_start(pixels, start));
+  if (!laid.ok()) return laid.status();
   Result<Region> region = choose_region(seen, *laid, partitions);
   if (!region.ok()) return region.status();
-  return Limb(std::move(seen), std::move(*laid), std::move(*region), mirrored);
+  if (mirrored || region->start == 0.0) {
+    return Limb(std::move(seen), std::move(*laid), std::move(*region), mirrored);
+  }
+  start = region->start;
+  return limb_over(std::move(seen), without_start(pixels, start), std::move(*region), mirrored);
 }
 
 Status check_apart(const Region& a, const Region& b) {
@@ -187,11 +197,14 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
     if (!labels.ok()) return labels.status();
     given = region_from_labels(shape->triangles(), *labels);
   }
-  const Region* known = options.labels.empty() ? nullptr : &given;
   for (const bool mirrored : {false, true}) {
     if (mirrored && !options.mirror) break;
-    Result<Limb> limb = make_limb(*shape, mirrored ? camera.mirrored(*options.mirror) : camera,
-                                  impl->reference_pixels, options.partitions, known, mirrored);
+    const Polyline& pixels = impl->reference_pixels;
+    SeenShape seen = seen_through(mirrored ? camera.mirrored(*options.mirror) : camera, *shape);
+    Result<Limb> limb =
+        options.labels.empty()
+            ? limb_under(std::move(seen), pixels, options.partitions, mirrored, impl->start)
+            : limb_over(std::move(seen), pixels, given, mirrored);
     if (!limb.ok()) return limb.status();
     impl->limbs.push_back(std::move(*limb));
   }
@@ -212,14 +225,16 @@ Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
   const Polyline pixels = filtered(reference, nodes_for(reference));
   std::vector<Limb> limbs;
   for (std::size_t k = 0; k < impl_->limbs.size(); ++k) {
-    Result<Limb> limb = make_limb(*impl_->shape, k == 0 ? camera : camera.mirrored(*impl_->mirror),
-                                  pixels, {}, &impl_->limbs[k].region(), k == 1);
+    Result<Limb> limb =
+        limb_over(seen_through(k == 0 ? camera : camera.mirrored(*impl_->mirror), *impl_->shape),
+                  pixels, impl_->limbs[k].region(), k == 1);
     if (!limb.ok()) return limb.status();
     limbs.push_back(std::move(*limb));
   }
   unrefine();
   impl_->limbs = std::move(limbs);
   impl_->reference_pixels = pixels;
+  impl_->start = 0.0;
   for (Limb& limb : impl_->limbs) limb.set_smooth(impl_->smooth);
   reset();
   return {};
@@ -231,7 +246,7 @@ Status Sketch::bend(const Stroke& target, bool unfinished) {
   if (Status status = check_stroke(target, "target"); !status.ok()) return status;
   const PlaneCurve& reference = impl_->curve();
   const Stroke whole = unfinished ? continued(target, impl_->reference_pixels) : target;
-  Polyline nodes = filtered(whole, reference.size());
+  Polyline nodes = without_start(filtered(whole, reference.size()), impl_->start);
   for (auto node : nodes.colwise()) {
     node = impl_->limbs.front().camera().at_depth(node, impl_->limbs.front().depth());
   }

@@ -10,7 +10,8 @@ struct SketchImpl {
   std::shared_ptr<const Shape> shape;
   std::optional<Plane> mirror;
   bool smooth = true;
-  Polyline reference_pixels;  ///< filtered
+  Polyline reference_pixels;  ///< filtered, as drawn
+  double start = 0.0;         ///< share of it, and of every target, that lies before the region
   std::vector<Limb> limbs;    ///< one, or a second one that is its reflection
 
   /// As drawn or set: without the turning control.

@@ -27,4 +27,7 @@ Index nodes_for(const Stroke& stroke);
 /// it is a parabola fitted to the samples within 8 pixels.
 Stroke filtered(const Stroke& stroke, Index nodes);
 
+/// The filtered stroke without its first part, `share` in [0, 1) of its length; as many nodes.
+Stroke without_start(const Stroke& stroke, double share);
+
 }  // namespace pliant
