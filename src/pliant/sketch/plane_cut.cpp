@@ -81,10 +81,19 @@ double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   return length * std::max(least_cost, 1.0 - eta * bend / std::numbers::pi);
 }
 
+std::vector<Index> connected_points(const Triangles& triangles, Index points) {
+  std::vector<Index> parent = all_apart(points);
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    join(parent, triangles(0, t), triangles(1, t));
+    join(parent, triangles(0, t), triangles(2, t));
+  }
+  for (Index p = 0; p < points; ++p) parent[p] = parent[parent[p]];
+  return parent;
+}
+
 PlaneCut::PlaneCut(const Points& points, const Triangles& triangles, std::span<const Index> part,
                    std::span<const double> distance)
     : points_(points), triangles_(triangles), part_(part), distance_(distance) {
-  find_pieces();
   find_loops();
 }
 
@@ -106,12 +115,11 @@ void PlaneCut::find_pieces() {
   for (Index p = 0; p < points_.cols(); ++p) piece_[p] = piece_[piece_[p]];
 }
 
-std::vector<Index> PlaneCut::components() const {
-  std::vector<Index> parent = all_apart(static_cast<Index>(piece_.size()));
-  for (const CutLoop& loop : loops_) join(parent, loop.behind, loop.ahead);
-  std::vector<Index> component(piece_.size());
-  for (std::size_t p = 0; p < piece_.size(); ++p) component[p] = root_of(parent, piece_[p]);
-  return component;
+Index PlaneCut::piece_of(const CutLoop& loop, bool ahead) const {
+  for (const Index corner : triangles_.col(loop.triangles.front())) {
+    if ((distance_[corner] >= 0.0) == ahead) return piece_[corner];
+  }
+  return -1;
 }
 
 void PlaneCut::find_loops() {
@@ -140,44 +148,53 @@ void PlaneCut::find_loops() {
     if (root == i) {
       loop_of[i] = static_cast<Index>(loops_.size());
       loops_.emplace_back();
-      for (const Index corner : triangles_.col(across[i])) {
-        (distance_[corner] >= 0.0 ? loops_.back().ahead : loops_.back().behind) = piece_[corner];
-      }
     }
     loops_[loop_of[root]].triangles.push_back(across[i]);
     loop_of[i] = loop_of[root];
   }
   crossings.resize(loops_.size());
+  const auto crossing = [&](Index a, Index b) -> Eigen::Vector3d {
+    const double share = distance_[a] / (distance_[a] - distance_[b]);
+    return (1.0 - share) * points_.col(a) + share * points_.col(b);
+  };
   for_each_run(sides, [&](auto first, auto) {
     if (!is_crossed(*first)) return;
-    const double low = distance_[first->low], high = distance_[first->high];
-    const double share = low / (low - high);
-    crossings[loop_of[place(first->triangle)]].push_back((1.0 - share) * points_.col(first->low) +
-                                                         share * points_.col(first->high));
+    crossings[loop_of[place(first->triangle)]].push_back(crossing(first->low, first->high));
   });
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     loops_[l].crossings.resize(3, static_cast<Index>(crossings[l].size()));
     for (std::size_t i = 0; i < crossings[l].size(); ++i) {
       loops_[l].crossings.col(static_cast<Index>(i)) = crossings[l][i];
     }
+    for (const Index t : loops_[l].triangles) {
+      // The corner alone on its side.
+      int c = 0;
+      const auto is_ahead = [&](int k) { return distance_[triangles_(k % 3, t)] >= 0.0; };
+      while (is_ahead(c) == is_ahead(c + 1) || is_ahead(c) == is_ahead(c + 2)) ++c;
+      const Index tip = triangles_(c, t);
+      loops_[l].length +=
+          (crossing(tip, triangles_((c + 1) % 3, t)) - crossing(tip, triangles_((c + 2) % 3, t)))
+              .norm();
+    }
   }
 }
 
 const std::vector<Index>& PlaneCut::separate(Index first) {
+  find_pieces();
   group_ = all_apart(static_cast<Index>(piece_.size()));
-  const Index behind = loops_[first].behind, ahead = loops_[first].ahead;
+  const Index source = behind(loops_[first]), sink = ahead(loops_[first]);
   for (const CutLoop& loop : loops_) {
-    const Index a = root_of(group_, loop.behind), b = root_of(group_, loop.ahead);
-    const Index s = root_of(group_, behind), t = root_of(group_, ahead);
+    const Index a = root_of(group_, behind(loop)), b = root_of(group_, ahead(loop));
+    const Index s = root_of(group_, source), t = root_of(group_, sink);
     const bool merges = (a == s && b == t) || (a == t && b == s);
     if (!merges) join(group_, a, b);
   }
-  behind_ = root_of(group_, behind);
-  ahead_ = root_of(group_, ahead);
+  behind_ = root_of(group_, source);
+  ahead_ = root_of(group_, sink);
   for (Index& group : group_) group = root_of(group_, group);
   kept_.clear();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
-    if (group_[loops_[l].behind] != group_[loops_[l].ahead]) {
+    if (group_[behind(loops_[l])] != group_[ahead(loops_[l])]) {
       kept_.push_back(static_cast<Index>(l));
     }
   }

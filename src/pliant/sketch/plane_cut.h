@@ -13,10 +13,12 @@ namespace pliant {
 /// One connected run of triangles that the plane crosses.
 struct CutLoop {
   std::vector<Index> triangles;
-  Points crossings;  ///< where the plane meets their edges, 3 x k
-  Index behind = 0;  ///< the pieces it joins: points that hang together on one side of the plane
-  Index ahead = 0;
+  Points crossings;     ///< where the plane meets their edges, 3 x k
+  double length = 0.0;  ///< of the line in which the plane meets them
 };
+
+/// Of every point the smallest id among those it hangs together with through the triangles.
+std::vector<Index> connected_points(const Triangles& triangles, Index points);
 
 /// Where a triangle lies: outside the cut part, or on one side of the cut.
 enum class CutSide : std::uint8_t { outside, behind, ahead };
@@ -29,9 +31,6 @@ class PlaneCut {
            std::span<const double> distance);
 
   const std::vector<CutLoop>& loops() const { return loops_; }
-
-  /// Of every point the smallest id among those it hangs together with through the part.
-  std::vector<Index> components() const;
 
   /// Chooses the loops to cut along: `first`, and of the others, in order, those without which the
   /// two parts that `first` separates would be one. What the part's other components are is
@@ -47,14 +46,18 @@ class PlaneCut {
  private:
   CutSide side_of(Index point) const;
   bool crossed(Index triangle) const;
-  void find_pieces();
   void find_loops();
+  void find_pieces();
+  /// Pieces that a loop joins: points that hang together on one side of the plane.
+  Index behind(const CutLoop& loop) const { return piece_of(loop, false); }
+  Index ahead(const CutLoop& loop) const { return piece_of(loop, true); }
+  Index piece_of(const CutLoop& loop, bool ahead) const;
 
   const Points& points_;
   const Triangles& triangles_;
   std::span<const Index> part_;
   std::span<const double> distance_;
-  std::vector<Index> piece_;  ///< of every point
+  std::vector<Index> piece_;  ///< of every point, after `separate`
   std::vector<CutLoop> loops_;
   std::vector<Index> group_;  ///< of every piece after `separate`
   Index behind_ = -1, ahead_ = -1;

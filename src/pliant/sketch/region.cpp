@@ -16,7 +16,8 @@ constexpr double band_pixels = 5.0;  // section 4.2.1
 constexpr double near_share = 0.1;   // of the stroke: how far from its place a section may be,
 constexpr double wide_share = 0.35;  // and how far it may reach along the stroke
 constexpr double slide_step = 0.05;
-constexpr int slides = 10;
+constexpr int slides = 8;
+constexpr double shrink = 1.4;  // of a section's length from one step to the next
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Index untouched = -1;
 
@@ -70,8 +71,9 @@ class RegionFinder {
       : shape_(shape), stroke_(stroke), labels_(shape.triangles.cols(), static_label) {}
 
   Result<Region> find(std::span<const Polyline> partitions) {
-    cut_start();
-    cut_end();
+    label_component();
+    start_ = cut_limb(with_label(labels_, region_label), false, static_label);
+    cut_limb(with_label(labels_, region_label), true, first_rigid_label);
     for (std::size_t i = 0; i < partitions.size(); ++i) {
       if (!cut_partition(partitions[i])) {
         return Status(ErrorCode::invalid_option,
@@ -93,6 +95,15 @@ class RegionFinder {
 
  private:
   double band() const { return band_pixels * shape_.camera.pixel_size(stroke_.depth); }
+
+  void label_component() {
+    const std::vector<Index> component =
+        connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
+    const Index mine = component_of_stroke(component);
+    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
+      if (component[shape_.triangles(0, t)] == mine) labels_[t] = region_label;
+    }
+  }
 
   /// The component most pixels of the stroke meet first, or else that of the point nearest to the
   /// stroke in the picture.
@@ -167,63 +178,66 @@ class RegionFinder {
     return {nodes.col(node), (nodes.col(first + span) - nodes.col(first)).normalized()};
   }
 
-  /// Loops of other components than the stroke's go out of reach.
-  void leave_others_out(const std::vector<Index>& component, std::vector<CutLoop>& loops) {
-    if (component_ < 0) component_ = component_of_stroke(component);
-    for (CutLoop& loop : loops) {
-      if (component[loop.ahead] != component_) loop.crossings.setConstant(infinity);
-    }
+  /// What a plane across the stroke meets of the limb.
+  struct Section {
+    bool there = false;
+    bool narrow = false;  ///< lies near its place along the stroke
+    double length = 0.0;
+  };
+
+  Section section_at(const std::vector<Index>& part, double s) const {
+    const std::vector<double> distance = distances(shape_, across(s));
+    const PlaneCut cut(shape_.view, shape_.triangles, part, distance);
+    const Index loop = loop_at(cut.loops(), s);
+    if (loop < 0) return {};
+    return {true, is_section(cut.loops()[loop], s), cut.loops()[loop].length};
   }
 
-  /// Tries planes across the stroke from one end on and calls take(cut, loop) for the first that
-  /// crosses the limb alone; where none does for that at the end. Returns its place; no call and
-  /// the end's place where no loop is there.
-  template <class Take>
-  double cut_limb(const std::vector<Index>& part, bool at_end, const Take& take) {
-    for (const bool choosy : {true, false}) {
-      for (int k = 0; k <= (choosy ? slides : 0); ++k) {
-        const double s = at_end ? 1.0 - k * slide_step : k * slide_step;
-        const std::vector<double> distance = distances(shape_, across(s));
-        PlaneCut cut(shape_.view, shape_.triangles, part, distance);
-        std::vector<CutLoop> loops = cut.loops();
-        if (!at_end) leave_others_out(cut.components(), loops);
-        const Index first = loop_at(loops, s);
-        if (first < 0 && k == 0) return s;
-        if (first < 0 || (choosy && !is_section(loops[first], s))) continue;
-        cut.separate(first);
-        take(cut.sides(band()));
-        return s;
+  /// How many steps the cut at the start moves on: past the last place where the section shrinks at
+  /// once, since there the limb leaves the body, or its neighbours.
+  int slide_start(const std::vector<Index>& part) const {
+    int first = 0;
+    Section before = section_at(part, 0.0);
+    if (!before.there) return 0;
+    bool narrow = before.narrow;
+    for (int k = 1; k <= slides; ++k) {
+      const Section section = section_at(part, k * slide_step);
+      if (!section.there) continue;
+      const bool leaves = before.length > shrink * section.length;
+      if (leaves || (section.narrow && !narrow)) {
+        first = k;
+        narrow = true;
       }
+      before = section;
     }
-    return at_end ? 1.0 : 0.0;
+    return first;
   }
 
-  void cut_start() {
-    std::vector<Index> all(shape_.triangles.cols());
-    std::iota(all.begin(), all.end(), 0);
-    bool cuts = false;
-    start_ = cut_limb(all, false, [&](const std::vector<CutSide>& sides) {
-      cuts = true;
-      for (const Index t : all) {
-        if (sides[t] == CutSide::ahead) labels_[t] = region_label;
-      }
-    });
-    if (cuts) return;
-    const std::vector<double> one_side(shape_.view.cols(), 0.0);
-    const std::vector<Index> component =
-        PlaneCut(shape_.view, shape_.triangles, all, one_side).components();
-    for (const Index t : all) {
-      if (component[shape_.triangles(0, t)] == component_) labels_[t] = region_label;
+  /// The end moves back only as long as its section is none.
+  int slide_end(const std::vector<Index>& part) const {
+    for (int k = 0; k <= slides; ++k) {
+      const Section section = section_at(part, 1.0 - k * slide_step);
+      if (section.narrow || (k == 0 && !section.there)) return k;
     }
+    return 0;
   }
 
-  void cut_end() {
-    const std::vector<Index> part = with_label(labels_, region_label);
-    cut_limb(part, true, [&](const std::vector<CutSide>& sides) {
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        if (sides[i] == CutSide::ahead) labels_[part[i]] = first_rigid_label;
-      }
-    });
+  /// Cuts `part` across the stroke near one of its ends and labels what lies beyond. Returns
+  /// the place of the cut, or that of the end where no loop is there.
+  double cut_limb(const std::vector<Index>& part, bool at_end, Index label) {
+    const auto place = [&](int k) { return at_end ? 1.0 - k * slide_step : k * slide_step; };
+    const double s = place(at_end ? slide_end(part) : slide_start(part));
+    const std::vector<double> distance = distances(shape_, across(s));
+    PlaneCut cut(shape_.view, shape_.triangles, part, distance);
+    const Index first = loop_at(cut.loops(), s);
+    if (first < 0) return place(0);
+    cut.separate(first);
+    const std::vector<CutSide> sides = cut.sides(band());
+    const CutSide labelled = at_end ? CutSide::ahead : CutSide::behind;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (sides[i] == labelled) labels_[part[i]] = label;
+    }
+    return s;
   }
 
   /// Of the loops that run under the drawn line, the one nearest to the eye; -1: none.
@@ -306,7 +320,6 @@ class RegionFinder {
   const SeenShape& shape_;
   const LaidStroke& stroke_;
   std::vector<Index> labels_;
-  Index component_ = -1;
   double start_ = 0.0;
 };
 

@@ -48,7 +48,7 @@ struct Region {
 /// Cuts across both ends of the stroke, then along the partitions. An end that no plane cuts off
 /// (the stroke runs beyond the shape) leaves no static or no rigid part. A plane that would run
 /// through more than the limb (its loop comes near to quite other places of the stroke) moves along
-/// the stroke, at most to its middle, until it crosses the limb alone.
+/// the stroke, at most over 40 % of it, until it crosses the limb alone.
 /// Errors: invalid_option (nothing is covered, a partition that cuts nothing off).
 Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke,
                              std::span<const Polyline> partitions);
