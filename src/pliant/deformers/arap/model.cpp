@@ -5,6 +5,7 @@
 
 #include "pliant/deformers/arap/rotations.h"
 #include "pliant/geometry/cotangent.h"
+#include "pliant/linalg/dense_kernels.h"
 
 namespace pliant::arap {
 namespace {
@@ -41,6 +42,7 @@ ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
   first_cell_.push_back(0);
   for (Index e = 0; e < table.size(); ++e) {
     const auto [a, b] = edges_[e];
+    for (int k = 0; k < 3; ++k) rest_edges_.push_back(rest_(k, a) - rest_(k, b));
     double weight = 0.0;
     for (Index t : table.triangles.row(e))
       weight += cotangents(corner_across(triangles, t, a, b), t);
@@ -137,12 +139,20 @@ BlockMatrix ArapModel::matrix() const {
 double ArapModel::evaluate(const Points& x, Points& half_gradient) {
   covariances_.setZero();
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto [a, b] = edges_[e];
-    const Eigen::Vector3d rest = rest_.col(a) - rest_.col(b), now = x.col(a) - x.col(b);
-    const Eigen::Matrix3d product = now * rest.transpose();
+    const double* a = x.data() + 3 * edges_[e][0];
+    const double* b = x.data() + 3 * edges_[e][1];
+    const double* rest = &rest_edges_[3 * e];
+    double product[9];
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) product[3 * c + r] = (a[r] - b[r]) * rest[c];
+    }
     for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
-      Eigen::Map<Eigen::Matrix3d>(covariances_.col(cells_[c].point).data()) +=
-          cells_[c].weight * product;
+      double* s = covariances_.data() + 9 * static_cast<std::ptrdiff_t>(cells_[c].point);
+      const dense::Vec2 weight = dense::splat2(cells_[c].weight);
+      for (int k = 0; k < 8; k += 2) {
+        dense::store2(s + k, dense::load2(s + k) + weight * dense::load2(product + k));
+      }
+      s[8] += cells_[c].weight * product[8];
     }
   }
   for (const Row& row : rows_) {
@@ -171,17 +181,29 @@ std::array<double, 2> ArapModel::residuals(const Points& from, const Rotations& 
                                            const Points& x, Points& half_gradient) const {
   half_gradient.setZero(3, x.cols());
   double edges = 0.0, rows = 0.0;
+  const bool at_rest = &from == &rest_;
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto [a, b] = edges_[e];
-    const Eigen::Vector3d before = from.col(a) - from.col(b), now = x.col(a) - x.col(b);
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
-      const Eigen::Vector3d d = now - ConstMatrix(turns.col(cells_[c].point).data()) * before;
-      edges += cells_[c].weight * d.squaredNorm();
-      force += cells_[c].weight * d;
+    const std::ptrdiff_t a = 3 * static_cast<std::ptrdiff_t>(edges_[e][0]);
+    const std::ptrdiff_t b = 3 * static_cast<std::ptrdiff_t>(edges_[e][1]);
+    double before[3], now[3], force[3] = {};
+    for (int k = 0; k < 3; ++k) {
+      before[k] = at_rest ? rest_edges_[3 * e + k] : from.data()[a + k] - from.data()[b + k];
+      now[k] = x.data()[a + k] - x.data()[b + k];
     }
-    half_gradient.col(a) += force;
-    half_gradient.col(b) -= force;
+    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
+      const double* turn = turns.data() + 9 * static_cast<std::ptrdiff_t>(cells_[c].point);
+      const double weight = cells_[c].weight;
+      for (int k = 0; k < 3; ++k) {
+        const double d =
+            now[k] - (turn[k] * before[0] + turn[3 + k] * before[1] + turn[6 + k] * before[2]);
+        edges += weight * d * d;
+        force[k] += weight * d;
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      half_gradient.data()[a + k] += force[k];
+      half_gradient.data()[b + k] -= force[k];
+    }
   }
   for (const Row& row : rows_) {
     const Eigen::Vector3d d =

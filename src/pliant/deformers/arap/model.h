@@ -50,6 +50,7 @@ class ArapModel final : public LocalModel {
   Points rest_;
   bool planar_;
   std::vector<Edge> edges_;
+  std::vector<double> rest_edges_;       ///< 3 an edge, from its second end to its first
   std::vector<std::size_t> first_cell_;  ///< of each edge in cells_, and the end
   std::vector<Cell> cells_;
   std::vector<Row> rows_;

@@ -12,9 +12,9 @@ using dense::Vec2;
 
 /// (s1 + s2)(s2 + s3)(s3 + s1) over (s1 + s2 + s3)^3, singular values signed: below this the closed
 /// form has fewer than ten digits left.
-constexpr double kLeastGap = 1e-3;
+constexpr double kLeastGap = 1e-2;
 /// Newton steps for the largest root; the start is exact for flat neighbourhoods.
-constexpr int kRootSteps = 5;
+constexpr int kRootSteps = 6;
 
 Vec2 square_root(Vec2 v) { return Vec2{std::sqrt(v[0]), std::sqrt(v[1])}; }
 
