@@ -65,11 +65,9 @@ Limb::Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored)
   collect_points();
   skin();
   place_virtual_vertices();
-  prepare_smoother();
   bend_.assign(points_, 0.0);
   twist_.assign(points_, 0.0);
   scale_.assign(points_, 1.0);
-  set_smooth(true);
 }
 
 void Limb::collect_points() {
@@ -128,6 +126,7 @@ void Limb::prepare_smoother() {
 
 void Limb::set_smooth(bool smooth) {
   smooth_ = smooth;
+  if (smooth && smoother_.size() == 0) prepare_smoother();
   if (smooth) {
     for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
     solved_ = raw_s_;

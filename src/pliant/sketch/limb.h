@@ -15,7 +15,7 @@ namespace pliant {
 /// Arrays over the shape's points, and after them points added between two others (refinement).
 class Limb {
  public:
-  /// mirrored: the camera is a reflected one.
+  /// mirrored: the camera is a reflected one. `set_smooth` is to be called before the first pose.
   Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored);
 
   const PlaneCurve& reference() const { return stroke_.curve; }
@@ -79,7 +79,7 @@ class Limb {
   LaidStroke stroke_;
   Region region_;
   bool mirrored_;
-  bool smooth_ = true;
+  bool smooth_ = false;
   Index points_ = 0;           ///< of the shape
   std::vector<Index> free_;    ///< points of the region, along the curve
   std::vector<Index> pinned_;  ///< points of other parts that touch it

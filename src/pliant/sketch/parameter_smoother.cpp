@@ -9,7 +9,7 @@ namespace {
 
 constexpr double fidelity_share = 0.05;  // w_c / 2 over the sum of w: sum w = 10 w_c
 constexpr double relaxation = 0.97;      // of what the incomplete factor leaves out
-constexpr double tolerance = 1e-10;
+constexpr double tolerance = 1e-8;
 constexpr int max_passes = 200;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {

@@ -24,7 +24,7 @@ class ParameterSmoother {
                     std::span<const std::array<Index, 2>> edges);
 
   /// raw: of the free points; pinned: of the pinned ones; u: of the free ones, a guess on the way
-  /// in. Root mean square error about 1e-10 of the largest value. Returns the passes it took.
+  /// in. Root mean square error about 1e-8 of the largest value. Returns the passes it took.
   int solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u);
 
   Index size() const { return static_cast<Index>(diagonal_.size()); }

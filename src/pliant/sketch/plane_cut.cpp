@@ -26,6 +26,7 @@ Index root_of(std::vector<Index>& parent, Index i) {
 }
 
 void join(std::vector<Index>& parent, Index a, Index b) {
+  if (parent[a] == parent[b]) return;
   a = root_of(parent, a);
   b = root_of(parent, b);
   parent[std::max(a, b)] = std::min(a, b);
@@ -106,10 +107,11 @@ bool PlaneCut::crossed(Index t) const {
 void PlaneCut::find_pieces() {
   piece_ = all_apart(static_cast<Index>(points_.cols()));
   for (const Index t : part_) {
-    for (int c = 0; c < 3; ++c) {
-      const Index a = triangles_(c, t), b = triangles_((c + 1) % 3, t);
-      if ((distance_[a] >= 0.0) == (distance_[b] >= 0.0)) join(piece_, a, b);
-    }
+    const Index a = triangles_(0, t), b = triangles_(1, t), c = triangles_(2, t);
+    const bool at_a = distance_[a] >= 0.0, at_b = distance_[b] >= 0.0, at_c = distance_[c] >= 0.0;
+    if (at_a == at_b) join(piece_, a, b);
+    if (at_a == at_c) join(piece_, a, c);
+    if (at_a != at_b && at_b == at_c) join(piece_, b, c);
   }
   // Parents come before their children.
   for (Index p = 0; p < points_.cols(); ++p) piece_[p] = piece_[piece_[p]];
@@ -191,7 +193,7 @@ const std::vector<Index>& PlaneCut::separate(Index first) {
   }
   behind_ = root_of(group_, source);
   ahead_ = root_of(group_, sink);
-  for (Index& group : group_) group = root_of(group_, group);
+  for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = group_[group_[i]];
   kept_.clear();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     if (group_[behind(loops_[l])] != group_[ahead(loops_[l])]) {
