@@ -36,6 +36,13 @@ double angle_between(double a, double b) {
   return angle <= -std::numbers::pi ? std::numbers::pi : angle;
 }
 
+double linear_in(const std::vector<double>& values, double s) {
+  const Index last = static_cast<Index>(values.size()) - 1;
+  const double x = s * last;
+  const Index i = std::clamp(static_cast<Index>(x), 0, last - 1);
+  return values[i] + (values[i + 1] - values[i]) * (x - i);
+}
+
 double length_of(const Polyline& line) { return lengths_along(line).back(); }
 
 Polyline resampled(const Polyline& line, Index nodes) {
@@ -105,7 +112,9 @@ void PlaneCurve::derive() {
   const Index n = size();
   totals_.assign(2 * n - 1, 0.0);
   totals_[0] = -0.5 * turns_.front();
-  for (Index i = 1; i + 1 < n; ++i) {  // eq. 1
+  // Eq. 1; with the middles between, eq. 2: b(2 alpha) and b(2 alpha - 1) are the halves of a
+  // segment.
+  for (Index i = 1; i + 1 < n; ++i) {
     totals_[2 * i] = totals_[2 * i - 1] + 0.5 * turns_[i - 1];
     totals_[2 * i + 1] = totals_[2 * i] + 0.5 * turns_[i - 1];
   }
@@ -124,14 +133,6 @@ Eigen::Vector2d PlaneCurve::point(double s) const {
   const Index i = std::clamp(static_cast<Index>(x), 0, size() - 2);
   const double share = x - i;
   return (1.0 - share) * nodes_.col(i) + share * nodes_.col(i + 1);
-}
-
-double PlaneCurve::turning(double s) const {
-  // Eq. 2: b(2 alpha) and b(2 alpha - 1) are the two halves of a segment.
-  const Index last = 2 * size() - 3;
-  const double x = s * static_cast<double>(last + 1);
-  const Index i = std::clamp(static_cast<Index>(x), 0, last);
-  return totals_[i] + (totals_[i + 1] - totals_[i]) * (x - i);
 }
 
 double PlaneCurve::nearest(const Eigen::Vector2d& p) const {

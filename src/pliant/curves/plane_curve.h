@@ -19,6 +19,10 @@ double length_of(const Polyline& line);
 /// `line` has at least two points and some length.
 Polyline resampled(const Polyline& line, Index nodes);
 
+/// The value at s in [0, 1] of a function that is linear between evenly spaced `values`, two at
+/// least.
+double linear_in(const std::vector<double>& values, double s);
+
 /// A polyline of equal steps given by where it starts and how it turns: what a bend compares,
 /// adjusts and interpolates. Kho and Garland, "Sketching Mesh Deformations" (2005), section 5.1.
 class PlaneCurve {
@@ -41,7 +45,9 @@ class PlaneCurve {
   Eigen::Vector2d point(double s) const;
   /// The total turning angle Phi(s), eq. 1-4, from the first segment on. The ends, where the paper
   /// has no turn, turn like their neighbours: a circle keeps its curvature up to its ends.
-  double turning(double s) const;
+  double turning(double s) const { return linear_in(totals_, s); }
+  /// Phi at the nodes and the middles between them, 2 n - 1 values: linear in s between.
+  const std::vector<double>& totals() const { return totals_; }
 
   /// Skinning: s of the point of the curve nearest to p.
   double nearest(const Eigen::Vector2d& p) const;

@@ -45,13 +45,17 @@ std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& v
                    [&](Index a, Index b) { return pixels(axis, a) < pixels(axis, b); });
 
   const bool perspective = camera.pixel_size(2.0) != camera.pixel_size(1.0);
-  const double low = pixels(axis, order.front()), high = pixels(axis, order.back());
+  const Eigen::Vector2d low = pixels.rowwise().minCoeff(), high = pixels.rowwise().maxCoeff();
   std::vector<std::vector<Hit>> hits(pixels.cols());
   for (Index t = 0; t < triangles.cols(); ++t) {
     const Index a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
+    const auto beside = [&](int k) {
+      return std::min({seen(k, a), seen(k, b), seen(k, c)}) > high[k] ||
+             std::max({seen(k, a), seen(k, b), seen(k, c)}) < low[k];
+    };
+    if (beside(0) || beside(1)) continue;
     const double x0 = std::min({seen(axis, a), seen(axis, b), seen(axis, c)});
     const double x1 = std::max({seen(axis, a), seen(axis, b), seen(axis, c)});
-    if (!(x0 <= high && x1 >= low)) continue;
     Eigen::Matrix<double, 2, 3> corners;
     corners << seen.col(a), seen.col(b), seen.col(c);
     if (corners.hasNaN()) continue;

@@ -16,11 +16,6 @@ constexpr int joint_passes = 8;  // joints lie on facets: their depths are avera
 
 Index count_of(const std::vector<Index>& items) { return static_cast<Index>(items.size()); }
 
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
 /// Edges of the chosen triangles between local ids, each once.
 std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const Region& region,
                                               const std::vector<Index>& local, Index count) {
@@ -61,7 +56,7 @@ Limb::Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored)
       mirrored_(mirrored),
       points_(static_cast<Index>(seen_.view.cols())),
       pose_(SketchPose::rest(stroke_.curve)),
-      target_(stroke_.curve) {
+      angles_(2, 0.0) {
   collect_points();
   skin();
   place_virtual_vertices();
@@ -134,9 +129,7 @@ void Limb::set_smooth(bool smooth) {
   }
   const std::vector<double>& values = smooth ? solved_ : raw_s_;
   for (std::size_t i = 0; i < free_.size(); ++i) s_[free_[i]] = std::clamp(values[i], 0.0, 1.0);
-  for (std::size_t i = 0; i < added_.size(); ++i) {
-    s_[points_ + i] = 0.5 * (s_[added_[i][0]] + s_[added_[i][1]]);
-  }
+  spread_to_added(s_);
 }
 
 template <class F, class G>
@@ -157,31 +150,27 @@ void Limb::spread(const F& f, double at_static, const G& rigid, std::vector<doub
   } else {
     for (const Index p : free_) values[p] = f(s_[p]);
   }
-  spread_to_added(f, values);
+  spread_to_added(values);
 }
 
-/// What smoothing added to f is averaged; f itself follows the curve.
-template <class F>
-void Limb::spread_to_added(const F& f, std::vector<double>& values) const {
+void Limb::spread_to_added(std::vector<double>& values) const {
   for (std::size_t i = 0; i < added_.size(); ++i) {
-    const auto [a, b] = added_[i];
-    values[points_ + i] = f(s_[points_ + i]) + 0.5 * (values[a] - f(s_[a]) + values[b] - f(s_[b]));
+    values[points_ + i] = 0.5 * (values[added_[i][0]] + values[added_[i][1]]);
   }
-}
-
-double Limb::angle(double s) const {
-  return target_.turning(s) - stroke_.curve.turning(s) + pose_.heading;  // eq. 5
 }
 
 void Limb::set_pose(const SketchPose& pose) {
   assert(has_joints() || (!pose.twists() && !pose.scales()));
   pose_ = pose;
   if (pose.bends()) {
-    target_ = bent(stroke_.curve, pose, 1.0);
-    const auto theta = [&](double s) { return angle(s); };
+    angles_ = bent(stroke_.curve, pose, 1.0).totals();
+    for (std::size_t i = 0; i < angles_.size(); ++i) {
+      angles_[i] += pose.heading - stroke_.curve.totals()[i];  // eq. 5
+    }
+    const auto theta = [&](double s) { return linear_in(angles_, s); };
     spread(theta, 0.0, theta, bend_);
   } else {
-    target_ = stroke_.curve;
+    angles_.assign(2, 0.0);
     std::fill(bend_.begin(), bend_.end(), 0.0);
   }
   if (pose.twists()) {
@@ -239,49 +228,74 @@ Eigen::Vector3d Limb::tangent(double s) const {
   return ((1.0 - (x - i)) * at_node(i) + (x - i) * at_node(i + 1)).normalized();
 }
 
-Eigen::Vector3d Limb::place(const Eigen::Vector3d& view, const Parameters& at, double t,
-                            const PlaneCurve& target) const {
-  Eigen::Vector3d v = view;
-  if (pose_.twists() || pose_.scales()) {
-    const Index last = static_cast<Index>(joints_.cols()) - 1;
-    const double x = at.s * last;
-    const Index i = std::clamp(static_cast<Index>(x), 0, last - 1);
-    const Eigen::Vector3d joint = (1.0 - (x - i)) * joints_.col(i) + (x - i) * joints_.col(i + 1);
-    // Eq. 7. View coordinates are left-handed, those of a reflected camera right-handed but twist
-    // the other way: the angle's sign changes in both.
-    v = joint + (1.0 + t * (at.scale - 1.0)) *
-                    (Eigen::AngleAxisd(-t * at.twist, tangent(at.s)) * (v - joint));
-  }
-  if (pose_.bends()) {
-    const Eigen::Vector2d offset = v.head<2>() - stroke_.curve.point(at.s);
-    v.head<2>() = target.point(at.s) + turned(offset, t * at.bend);  // eq. 6
-  }
-  return v;
+/// Scaled and twisted about the joints.
+Eigen::Vector3d Limb::twisted(const Eigen::Vector3d& view, const Parameters& at, double t) const {
+  const Index last = static_cast<Index>(joints_.cols()) - 1;
+  const double x = at.s * last;
+  const Index i = std::clamp(static_cast<Index>(x), 0, last - 1);
+  const Eigen::Vector3d joint = (1.0 - (x - i)) * joints_.col(i) + (x - i) * joints_.col(i + 1);
+  // Eq. 7. View coordinates are left-handed, those of a reflected camera right-handed but twist
+  // the other way: the angle's sign changes in both.
+  return joint + (1.0 + t * (at.scale - 1.0)) *
+                     (Eigen::AngleAxisd(-t * at.twist, tangent(at.s)) * (view - joint));
 }
 
+class Limb::Placer {
+ public:
+  Placer(const Limb& limb, double t)
+      : limb_(limb),
+        t_(t),
+        twists_(limb.pose_.twists() || limb.pose_.scales()),
+        bends_(limb.pose_.bends()),
+        target_(bent(limb.stroke_.curve, limb.pose_, t)) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& view, const Parameters& at) {
+    Eigen::Vector3d v = twists_ ? limb_.twisted(view, at, t_) : view;
+    if (!bends_) return v;
+    if (at.s != s_ || at.bend != bend_) {  // alike all over a rigid part
+      s_ = at.s;
+      bend_ = at.bend;
+      cosine_ = std::cos(t_ * bend_);
+      sine_ = std::sin(t_ * bend_);
+      from_ = limb_.stroke_.curve.point(s_);
+      to_ = target_.point(s_);
+    }
+    const Eigen::Vector2d offset = v.head<2>() - from_;
+    v.x() = to_.x() + cosine_ * offset.x() - sine_ * offset.y();  // eq. 6
+    v.y() = to_.y() + sine_ * offset.x() + cosine_ * offset.y();
+    return v;
+  }
+
+ private:
+  const Limb& limb_;
+  double t_;
+  bool twists_, bends_;
+  PlaneCurve target_;
+  double s_ = -1.0, bend_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
+  Eigen::Vector2d from_ = Eigen::Vector2d::Zero(), to_ = Eigen::Vector2d::Zero();
+};
+
 void Limb::show(double t, Points& world) const {
-  const bool still = t == 0.0 || (!pose_.bends() && !pose_.twists() && !pose_.scales());
-  const PlaneCurve target = still ? PlaneCurve() : bent(stroke_.curve, pose_, t);
+  if (t == 0.0 || (!pose_.bends() && !pose_.twists() && !pose_.scales())) return;
+  Placer place(*this, t);
   const Index total = static_cast<Index>(s_.size());
-  for (Index p = 0; p < total && !still; ++p) {
+  for (Index p = 0; p < total; ++p) {
     if (!moved_[p]) continue;
     const Parameters at{s_[p], bend_[p], twist_[p], scale_[p]};
-    world.col(p) = seen_.camera.to_world(place(seen_.view.col(p), at, t, target));
+    world.col(p) = seen_.camera.to_world(place(seen_.view.col(p), at));
   }
 }
 
 Limb::Parameters Limb::between(Index a, Index b) const {
-  const double s = 0.5 * (s_[a] + s_[b]);
-  const auto middle = [&](const auto& f, const std::vector<double>& values) {
-    return f(s) + 0.5 * (values[a] - f(s_[a]) + values[b] - f(s_[b]));
+  const auto mean = [&](const std::vector<double>& values) {
+    return 0.5 * (values[a] + values[b]);
   };
-  return {s, pose_.bends() ? middle([&](double x) { return angle(x); }, bend_) : 0.0,
-          middle(pose_.twist, twist_), middle(pose_.scale, scale_)};
+  return {mean(s_), mean(bend_), mean(twist_), mean(scale_)};
 }
 
 Eigen::Vector3d Limb::middle(Index a, Index b, double t) const {
   const Eigen::Vector3d view = 0.5 * (seen_.view.col(a) + seen_.view.col(b));
-  return seen_.camera.to_world(place(view, between(a, b), t, bent(stroke_.curve, pose_, t)));
+  return seen_.camera.to_world(Placer(*this, t)(view, between(a, b)));
 }
 
 void Limb::add(std::span<const std::array<Index, 2>> parents) {

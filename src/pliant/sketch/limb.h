@@ -37,7 +37,8 @@ class Limb {
   /// Writes the places of all points that a share t of the pose moves; others are left alone.
   void show(double t, Points& world) const;
 
-  /// Adds points in the middle between two others each (refinement), until `drop_added`.
+  /// Adds points in the middle between two others each (refinement), until `drop_added`. Their
+  /// parameters are the means of their parents'.
   void add(std::span<const std::array<Index, 2>> parents);
   void drop_added();
   /// Where a share t of the pose takes the middle between two points.
@@ -67,13 +68,12 @@ class Limb {
   /// the static part has `at_static`.
   template <class F, class G>
   void spread(const F& f, double at_static, const G& rigid, std::vector<double>& values);
-  template <class F>
-  void spread_to_added(const F& f, std::vector<double>& values) const;
-  double angle(double s) const;  ///< theta of eq. 5
+  void spread_to_added(std::vector<double>& values) const;
   Eigen::Vector3d tangent(double s) const;
-  Eigen::Vector3d place(const Eigen::Vector3d& view, const Parameters& at, double t,
-                        const PlaneCurve& target) const;
+  Eigen::Vector3d twisted(const Eigen::Vector3d& view, const Parameters& at, double t) const;
   Parameters between(Index a, Index b) const;
+  /// Places points of one pose after the other.
+  class Placer;
 
   SeenShape seen_;
   LaidStroke stroke_;
@@ -91,7 +91,7 @@ class Limb {
   ParameterSmoother smoother_;
   std::vector<double> raw_, pins_, solved_;
   SketchPose pose_;
-  PlaneCurve target_;  ///< of the whole pose
+  std::vector<double> angles_;  ///< theta of eq. 5, evenly over s, of the whole pose
   Points joints_;
 };
 

@@ -21,13 +21,12 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index> point_of_local,
                                      Index free, std::span<const std::array<Index, 2>> edges)
     : offsets_(free + 1, 0), fidelity_(free, 0.0), diagonal_(free, 0.0) {
-  const auto weight = [&](const std::array<Index, 2>& edge) {
-    return 1.0 / (points.col(point_of_local[edge[0]]) - points.col(point_of_local[edge[1]])).norm();
-  };
-  std::vector<double> sums(free, 0.0);
-  for (const auto& edge : edges) {
-    const auto [low, high] = std::minmax(edge[0], edge[1]);
-    const double w = weight(edge);
+  std::vector<double> sums(free, 0.0), weights;
+  weights.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    const auto [low, high] = std::minmax(a, b);
+    const double w = 1.0 / (points.col(point_of_local[a]) - points.col(point_of_local[b])).norm();
+    weights.push_back(w);
     if (low < free) sums[low] += w;
     if (high < free) {
       sums[high] += w;
@@ -40,11 +39,11 @@ ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index
   columns_.resize(offsets_.back());
   weights_.resize(offsets_.back());
   std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
-  for (const auto& edge : edges) {
-    const auto [low, high] = std::minmax(edge[0], edge[1]);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [low, high] = std::minmax(edges[e][0], edges[e][1]);
     if (high >= free) continue;
     columns_[next[high]] = low;
-    weights_[next[high]++] = weight(edge);
+    weights_[next[high]++] = weights[e];
   }
   for (Index i = 0; i < free; ++i) {
     fidelity_[i] = fidelity_share * sums[i];
