@@ -29,5 +29,8 @@ class Reporter {
 };
 
 void bench_embedded_graph(const Reporter& reporter);
+void bench_arap(const Reporter& reporter);
+void bench_edge_material(const Reporter& reporter);
+void bench_cgal(const Reporter& reporter);  ///< only where CMake finds CGAL
 
 }  // namespace pliant::bench
