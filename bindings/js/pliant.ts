@@ -7,6 +7,7 @@ import type { DeformerOptions } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./quality.js";
 import type { EditOptions, EditResult, EditScript } from "./script/types.js";
 import { Shape, shapeFor, type ShapeInput } from "./shape.js";
+import { Sketch, type SketchOptions } from "./sketch.js";
 
 /** What `init` resolves to. */
 export class Pliant {
@@ -25,6 +26,11 @@ export class Pliant {
   /** Builds a deformer over a shape. Errors: invalid-option, too-large. */
   deformer(shape: Shape, options: DeformerOptions): Deformer {
     return new Deformer(this.#core, shape, options);
+  }
+
+  /** Chooses the limb of a mesh that a stroke was drawn on, to be posed by more strokes. Errors: invalid-shape, invalid-option. */
+  sketch(shape: Shape, options: SketchOptions): Sketch {
+    return new Sketch(this.#core, shape, options);
   }
 
   /** Compares a shape with deformed positions of its vertices. Errors: invalid-option. */

@@ -11,6 +11,9 @@ export type { MeasureOptions, Quality } from "./quality.js";
 export type * from "./script/types.js";
 export type { Selection } from "./selection.js";
 export { Shape, type ShapeInput, type ShapeReport } from "./shape.js";
+export {
+  type Camera, type Mirror, type Profile, type Refinement, Sketch, type SketchOptions, type SketchPose, type SketchSeed, type SketchState, type Stroke,
+} from "./sketch.js";
 export type { HandleState, State } from "./state.js";
 export type { Transform } from "./transform.js";
 export type { InitOptions } from "./wasm.js";

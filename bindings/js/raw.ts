@@ -110,6 +110,56 @@ export interface RawDeformer extends RawObject {
   restore(state: RawState): RawStatus;
 }
 
+/**
+ * Editing by strokes (bind_sketch.cpp). Packed into the scratch, doubles beside integers:
+ * CAMERA: eye, target, up, angle or height, width, height beside 1 where that is orthographic, else 0;
+ * STROKE and PROFILE: two numbers a sample beside how many;
+ * POSE: heading, length, turns, twist, scale beside how many turns and points of each profile.
+ */
+export interface RawSketch extends RawObject {
+  /** CAMERA, STROKE (reference), if mirrored a point and a normal, then beside how many there are the partitions as STROKEs; labels are the other integers. */
+  build(shape: RawShape, smooth: boolean, mirrored: boolean, scratch: RawScratch): RawStatus;
+  /** CAMERA, STROKE. */
+  redraw(scratch: RawScratch): RawStatus;
+  /** STROKE. */
+  bend(scratch: RawScratch, unfinished: boolean): RawStatus;
+  unbend(): void;
+  twist(radians: number): RawStatus;
+  /** PROFILE. */
+  setScale(scratch: RawScratch): RawStatus;
+  setTurning(scratch: RawScratch): RawStatus;
+  setTwistSpeed(scratch: RawScratch): RawStatus;
+  setSmooth(smooth: boolean): void;
+  setMorph(t: number): RawStatus;
+  reset(): void;
+  /** A POSE with the counts in line, each before what it counts. */
+  pose(): Float64Array;
+  /** POSE; if two, another: then the share t of the way to it. */
+  setPose(scratch: RawScratch, two: boolean, t: number): RawStatus;
+  /** integers: the input's triangles. */
+  refine(scratch: RawScratch, maxAdded: number): RawStatus;
+  unrefine(): void;
+  /** How many vertices the refinement added; -1 without one. The next three only with one. */
+  added(): number;
+  parents(): Int32Array; // 2 an added vertex
+  triangles(): Uint32Array; // 3 a triangle
+  triangleParents(): Uint32Array; // 1 a triangle
+  labels(): Int32Array; // n
+  parameters(): Float64Array; // n + added, as those below
+  reference(): Float64Array; // 3 a node
+  target(): Float64Array; // 3 a node
+  rest(): Float64Array;
+  positions(): Float32Array;
+  positions64(): Float64Array;
+  normals(): Float32Array;
+  /** Keeps what the next three give; spacing in diagonals. */
+  seed(spacing: number): void;
+  seedFixed(): Int32Array;
+  seedVertices(): Int32Array;
+  seedTargets(): Float64Array; // 3 a vertex
+  save(state: RawState): void;
+}
+
 export interface RawQuality {
   stretchMean: number;
   stretchP95: number;
@@ -129,6 +179,7 @@ export interface RawModule {
   Shape: new () => RawShape;
   Deformer: new () => RawDeformer;
   State: new () => RawState;
+  Sketch: new () => RawSketch;
   /** doubles: 3 n deformed positions of the input's vertices. */
   measureQuality(shape: RawShape, scratch: RawScratch, withIntersections: boolean): RawQuality;
 }

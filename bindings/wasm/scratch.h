@@ -32,10 +32,12 @@ class Scratch {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A view of an array that WASM memory holds, valid until the owner's next call.
-template <class T>
-emscripten::val view_of(const std::vector<T>& array) {
-  return emscripten::val(emscripten::typed_memory_view(array.size(), array.data()));
+/// A view of an array (a vector, or a matrix column by column) that WASM memory holds, valid until
+/// the owner's next call.
+template <class Array>
+emscripten::val view_of(const Array& array) {
+  return emscripten::val(
+      emscripten::typed_memory_view(static_cast<std::size_t>(array.size()), array.data()));
 }
 
 }  // namespace pliant::bindings

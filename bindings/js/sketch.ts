@@ -1,0 +1,304 @@
+// Editing by two strokes: one over a limb, a second where it should go.
+
+import { fields, finite, flag, type FloatArray, integer, list, output, Place } from "./check.js";
+import { build, type Core, disposeSymbol, Owned } from "./core.js";
+import type { RawSketch } from "./raw.js";
+import { insideOf, type Shape, shapeFor } from "./shape.js";
+import { type Camera, type Mirror, Packed, type Profile, readSpacing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
+import { readTables, toState } from "./state.js";
+
+export type { Camera, Mirror, Profile, SketchPose, Stroke };
+
+export interface SketchOptions {
+  camera: Camera;
+  /** Drawn along the limb: it is held where the stroke starts and moved where it ends. */
+  reference: Stroke;
+  /** Lines across the shape; what each cuts off the region becomes a rigid part. */
+  partitions?: readonly Stroke[];
+  /** Smooths the parameters over the region (eq. 9): true. */
+  smooth?: boolean;
+  /** The same on the limb mirrored in this plane, too. */
+  mirror?: Mirror;
+  /** Takes over a region instead of choosing one: a label a vertex, as `labels()` gives them. Not with partitions or mirror. */
+  labels?: ArrayLike<number>;
+}
+
+/** Handles for a solver that finishes what the sketch began. */
+export interface SketchSeed {
+  /** For `setFixed`: the static part. */
+  fixed: Uint32Array;
+  /** For `addHandle`: the rigid parts whole, and spread vertices of the region. */
+  vertices: Uint32Array;
+  /** For `moveTo`: three numbers a vertex. */
+  targets: Float64Array;
+}
+
+/** What refinement added. The input's n vertices come first, then the added ones. */
+export interface Refinement {
+  /** Two ids an added vertex, which lies in the middle between them; they may be added ones before it. */
+  parents: Uint32Array;
+  /** In place of the input's: three ids a triangle. */
+  triangles: Uint32Array;
+  /** Of each triangle, the input's it is a part of. */
+  triangleParents: Uint32Array;
+}
+
+/** What `sketch.state()` gives: plain data; fields as in the contract. */
+export interface SketchState {
+  /** 0 static, 1 region, 2 and above rigid parts; one a vertex of the input. */
+  labels: number[];
+  s: number[];
+  /** Radians, right-handed about `normals` (where nothing bends: about the joints). */
+  angles: number[];
+  reference: number[][];
+  target: number[][];
+  [field: string]: unknown;
+}
+
+const maxAdded = 1_000_000;
+
+/**
+ * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
+ *
+ * Bend, twist and scale add up; each call replaces what it set before and is cheap enough for every
+ * event of a pen. Vertex ids are the input's; results are copies.
+ */
+export class Sketch {
+  readonly shape: Shape;
+  readonly #owned: Owned<RawSketch>;
+
+  /** @internal */
+  constructor(core: Core, shape: Shape, options: SketchOptions) {
+    shapeFor(core, shape);
+    if (shape.dimension !== 3) new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
+    this.shape = shape;
+    const { packed, smooth, mirrored } = readSketch(options);
+    const raw = build(core, () => new core.raw.Sketch(), (unbuilt) => insideOf(shape).owned.call((rawShape) =>
+      unbuilt.build(rawShape, smooth, mirrored, core.stage(packed.doubles, packed.integers))));
+    this.#owned = new Owned(core, raw, this, "sketch");
+  }
+
+  /** Another reference stroke over the same region, maybe seen from elsewhere; back to rest. Errors: invalid-option; nothing changes then. */
+  redraw(camera: Camera, reference: Stroke): void {
+    const packed = new Packed().camera(option("camera"), camera).pairs(option("reference"), reference);
+    this.#accept(packed, (raw, scratch) => raw.redraw(scratch));
+  }
+
+  // -- Posing. --------------------------------------------------------------------------------------
+
+  /**
+   * Bends the reference curve into the target stroke, moved to start where the reference does. While
+   * it is drawn: `unfinished` goes on by what is left of the reference, so that the limb keeps its
+   * length. Errors: invalid-option.
+   */
+  bend(target: Stroke, options: { unfinished?: boolean } = {}): void {
+    const place = option("options");
+    const { unfinished = false } = fields(place, options, ["unfinished"]);
+    const open = flag(place.at("unfinished"), unfinished);
+    this.#accept(new Packed().pairs(option("target"), target), (raw, scratch) => raw.bend(scratch, open));
+  }
+
+  /** Takes the bend back; twist and scale stay. */
+  unbend(): void {
+    this.#owned.call((raw) => raw.unbend());
+  }
+
+  /** Twists the limb, right-handed about the stroke's direction, by any angle at its end. Errors: invalid-option, also where the stroke runs beside the shape. */
+  twist(degrees: number): void {
+    const radians = (finite(option("degrees"), degrees, "a finite number of degrees") * Math.PI) / 180;
+    this.#owned.accept((raw) => raw.twist(radians));
+  }
+
+  /** Scales the limb about the middle of its sections by factors above 0 over s. Errors: as `twist`. */
+  scale(profile: Profile): void {
+    this.#profile(profile, (raw, scratch) => raw.setScale(scratch));
+  }
+
+  /** Turns the target by F(s) - s radians a unit of s; [[0, 0], [1, 1]]: as drawn. Errors: invalid-option. */
+  turning(profile: Profile): void {
+    this.#profile(profile, (raw, scratch) => raw.setTurning(scratch));
+  }
+
+  /** The twist at s is F(s) times its angle; [[0, 0], [1, 1]]: evenly. Errors: invalid-option. */
+  twistSpeed(profile: Profile): void {
+    this.#profile(profile, (raw, scratch) => raw.setTwistSpeed(scratch));
+  }
+
+  /** Whether the parameters are smoothed over the region; the pose stays. */
+  setSmooth(smooth: boolean): void {
+    const value = flag(option("smooth"), smooth);
+    this.#owned.call((raw) => raw.setSmooth(value));
+  }
+
+  /** Shows the way from rest (0) to the pose (1) by lengths and angles. Errors: invalid-option. */
+  morph(t: number): void {
+    const share = finite(option("morph"), t, "a number from 0 to 1");
+    this.#owned.accept((raw) => raw.setMorph(share));
+  }
+
+  /** The whole pose, to be kept and set again. */
+  pose(): SketchPose {
+    return this.#owned.call((raw) => unpackPose(raw.pose()));
+  }
+
+  /** Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to the identity. Errors: invalid-option. */
+  setPose(pose: SketchPose, toward?: SketchPose, t = 0): void {
+    const packed = new Packed().pose(option("pose"), pose);
+    const two = toward !== undefined;
+    if (two) packed.pose(option("toward"), toward);
+    const share = finite(option("t"), t);
+    if (share < 0 || share > 1) option("t").fail(t, "a number from 0 to 1");
+    this.#accept(packed, (raw, scratch) => raw.setPose(scratch, two, share));
+  }
+
+  /** Back to rest, bit for bit; the region and smoothing stay. */
+  reset(): void {
+    this.#owned.call((raw) => raw.reset());
+  }
+
+  // -- Refinement. ----------------------------------------------------------------------------------
+
+  /** Splits edges that the pose stretches and bends, again and again; later poses move the added vertices too. `maxAdded`: 1,000,000. Errors: invalid-option, too-large. */
+  refine(options: { maxAdded?: number } = {}): Refinement {
+    const place = option("options");
+    const { maxAdded: limit = maxAdded } = fields(place, options, ["maxAdded"]);
+    const most = integer(place.at("maxAdded"), limit, 0, maxAdded * 10);
+    const { core } = this.#owned;
+    this.#owned.accept((raw) => core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)));
+    return this.refinement!;
+  }
+
+  /** Takes the refinement back. */
+  unrefine(): void {
+    this.#owned.call((raw) => raw.unrefine());
+  }
+
+  /** What `refine` added; undefined without it. */
+  get refinement(): Refinement | undefined {
+    return this.#owned.call((raw) => (raw.added() < 0 ? undefined : {
+      parents: Uint32Array.from(raw.parents()), triangles: raw.triangles().slice(), triangleParents: raw.triangleParents().slice(),
+    }));
+  }
+
+  /** Vertices of the input and added ones. */
+  get vertices(): number {
+    return this.shape.report.vertices + Math.max(0, this.#owned.call((raw) => raw.added()));
+  }
+
+  // -- Results. -------------------------------------------------------------------------------------
+
+  /** 0 static, 1 region, 2 and above rigid parts; one a vertex of the input. They do not change. */
+  labels(): Uint32Array {
+    return this.#owned.call((raw) => Uint32Array.from(raw.labels()));
+  }
+
+  /** Normalised arc length s of every vertex along the reference; 0 in the static part. */
+  parameters(): Float32Array;
+  parameters<T extends FloatArray>(out: T): T;
+  parameters(out?: FloatArray): FloatArray {
+    return this.#into(out, 1, (raw) => raw.parameters());
+  }
+
+  /** The reference curve in space, three numbers a node. */
+  reference(): Float64Array {
+    return this.#owned.call((raw) => raw.reference().slice());
+  }
+
+  /** The curve as it is bent now, as many nodes. */
+  target(): Float64Array {
+    return this.#owned.call((raw) => raw.target().slice());
+  }
+
+  /** Positions in the pose, three numbers a vertex; a Float64Array for `out` gets them in double. */
+  positions(): Float32Array;
+  positions<T extends FloatArray>(out: T): T;
+  positions(out?: FloatArray): FloatArray {
+    return this.#into(out, 3, (raw) => (out instanceof Float64Array ? raw.positions64() : raw.positions()));
+  }
+
+  /** Positions at rest, of added vertices too. */
+  restPositions(): Float32Array;
+  restPositions<T extends FloatArray>(out: T): T;
+  restPositions(out?: FloatArray): FloatArray {
+    return this.#into(out, 3, (raw) => raw.rest());
+  }
+
+  /** Unit normals in the pose. */
+  normals(): Float32Array;
+  normals<T extends FloatArray>(out: T): T;
+  normals(out?: FloatArray): FloatArray {
+    return this.#into(out, 3, (raw) => raw.normals());
+  }
+
+  /** Targets for any deformer over the same shape. `spacing`: of region vertices, in diagonals of the shape (0.05). Errors: invalid-option. */
+  seed(options: { spacing?: number } = {}): SketchSeed {
+    const place = option("options");
+    const { spacing = 0.05 } = fields(place, options, ["spacing"]);
+    const diagonals = readSpacing(place.at("spacing"), spacing);
+    return this.#owned.call((raw) => {
+      raw.seed(diagonals);
+      return {
+        fixed: Uint32Array.from(raw.seedFixed()), vertices: Uint32Array.from(raw.seedVertices()), targets: raw.seedTargets().slice(),
+      };
+    });
+  }
+
+  /** All that is needed to recompute the result without Pliant. */
+  state(): SketchState {
+    return this.#owned.call((raw) => {
+      const state = new this.#owned.core.raw.State();
+      try {
+        raw.save(state);
+        return toState(readTables(state)) as object as SketchState;
+      } finally {
+        state.delete();
+      }
+    });
+  }
+
+  /** Frees its memory. Every later call is a `disposed` error. */
+  dispose(): void {
+    this.#owned.dispose();
+  }
+
+  [disposeSymbol](): void {
+    this.dispose();
+  }
+
+  #into(out: FloatArray | undefined, width: number, read: (raw: RawSketch) => FloatArray): FloatArray {
+    const length = width * this.vertices;
+    const result = output(option("out"), out, length, () => new Float32Array(length));
+    this.#owned.call((raw) => result.set(read(raw)));
+    return result;
+  }
+
+  #accept({ doubles, integers }: Packed, work: (raw: RawSketch, scratch: ReturnType<Core["stage"]>) => ReturnType<RawSketch["redraw"]>): void {
+    this.#owned.accept((raw) => work(raw, this.#owned.core.stage(doubles, integers)));
+  }
+
+  #profile(profile: Profile, work: (raw: RawSketch, scratch: ReturnType<Core["stage"]>) => ReturnType<RawSketch["redraw"]>): void {
+    this.#accept(new Packed().pairs(option("profile"), profile), work);
+  }
+}
+
+function option(name: string): Place {
+  return new Place("invalid-option", name);
+}
+
+const known = ["camera", "reference", "partitions", "smooth", "mirror", "labels"];
+
+function readSketch(value: unknown) {
+  const place = option("options");
+  const options = fields(place, value, known, "option of a sketch");
+  const mirrored = options.mirror !== undefined;
+  const packed = new Packed().camera(option("camera"), options.camera).pairs(option("reference"), options.reference);
+  if (mirrored) packed.mirror(option("mirror"), options.mirror);
+  packed.partitions(option("partitions"), options.partitions ?? []);
+  if (options.labels !== undefined) {
+    const labels = Array.from(list(option("labels"), options.labels, "a label a vertex"));
+    if (labels.length === 0) option("labels").reject("is empty; expected a label a vertex");
+    labels.forEach((label, i) => packed.integers.push(integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")));
+  }
+  const smooth = options.smooth === undefined || flag(option("smooth"), options.smooth);
+  return { packed, smooth, mirrored };
+}
