@@ -8,6 +8,7 @@ import { WorkerPliant } from "./worker/objects.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 
 export { WorkerDeformer, WorkerHandle, WorkerPliant, WorkerShape } from "./worker/objects.js";
+export { WorkerSketch } from "./worker/sketch.js";
 export type * from "./public.js";
 export { PliantError } from "./errors.js";
 

@@ -6,6 +6,7 @@ import { Handle } from "../handle.js";
 import { makeInit } from "../init.js";
 import { Pliant } from "../pliant.js";
 import { Shape } from "../shape.js";
+import { Sketch } from "../sketch.js";
 import { nodeModule } from "../wasm.js";
 import { type Argument, type Call, type Fresh, type Port, provided, type Reference, type Reply, type Request } from "./protocol.js";
 
@@ -13,11 +14,13 @@ const init = makeInit(() => Promise.reject(new Error("none was named")));
 
 /** What a page may call. */
 const methods = new Map<Function, readonly string[]>([
-  [Pliant, ["shape", "deformer", "measure", "edit"]],
+  [Pliant, ["shape", "deformer", "sketch", "measure", "edit"]],
   [Shape, ["select", "dispose"]],
   [Deformer, ["setFixed", "addHandle", "step", "solve", "energy", "counters", "positions", "normals",
     "transformPoints", "state", "restore", "reset", "dispose"]],
   [Handle, ["move", "moveTo", "remove"]],
+  [Sketch, ["redraw", "bend", "unbend", "twist", "scale", "turning", "twistSpeed", "setSmooth", "morph", "pose", "setPose", "reset",
+    "refine", "unrefine", "labels", "parameters", "reference", "target", "positions", "restPositions", "normals", "seed", "state", "dispose"]],
 ]);
 
 class Host {
@@ -78,7 +81,7 @@ class Host {
       return this.#refer(value, { shape: { report, dimension, diagonal } });
     }
     if (value instanceof Deformer) return this.#refer(value, { method: value.method });
-    return value instanceof Handle ? this.#refer(value, {}) : value;
+    return value instanceof Handle || value instanceof Sketch ? this.#refer(value, {}) : value;
   }
 
   #refer(object: object, about: Omit<Reference, "object">): Reference {

@@ -7,41 +7,14 @@ import type { MeasureOptions, Quality } from "../quality.js";
 import type { EditOptions, EditResult, EditScript } from "../script/types.js";
 import type { Selection } from "../selection.js";
 import type { ShapeInput, ShapeReport } from "../shape.js";
+import type { SketchOptions } from "../sketch.js";
 import type { State } from "../state.js";
 import type { Transform } from "../transform.js";
 import { disposeSymbol } from "../core.js";
-import { type Line, split } from "./line.js";
+import { Remote } from "./remote.js";
+import { WorkerSketch } from "./sketch.js";
+import type { Line } from "./line.js";
 import type { Reference } from "./protocol.js";
-
-/** An object that lives in the worker. */
-class Remote {
-  readonly #line: Line;
-  readonly #object: number;
-
-  /** @internal */
-  constructor(line: Line, reference: Reference) {
-    this.#line = line;
-    this.#object = reference.object;
-    if (reference.object !== 0) line.keep(this, reference);
-  }
-
-  /** @internal */
-  call<T>(method: string, ...args: unknown[]): Promise<T> {
-    return this.#line.call(this.#object, method, args.map((arg) => (arg instanceof Remote ? { object: arg.#object } : arg)));
-  }
-
-  /** A call whose last argument holds options with functions or a signal. @internal */
-  callWith<T>(method: string, options: unknown, ...args: unknown[]): Promise<T> {
-    const { sent, local } = split(options);
-    const values = [...args, sent].map((arg) => (arg instanceof Remote ? { object: arg.#object } : arg));
-    return this.#line.call(this.#object, method, values, local);
-  }
-
-  /** @internal */
-  get line(): Line {
-    return this.#line;
-  }
-}
 
 /** See {@link Pliant}. */
 export class WorkerPliant extends Remote {
@@ -51,6 +24,10 @@ export class WorkerPliant extends Remote {
 
   async deformer(shape: WorkerShape, options: DeformerOptions): Promise<WorkerDeformer> {
     return new WorkerDeformer(this.line, await this.call<Reference>("deformer", shape, options), shape);
+  }
+
+  async sketch(shape: WorkerShape, options: SketchOptions): Promise<WorkerSketch> {
+    return new WorkerSketch(this.line, await this.call<Reference>("sketch", shape, options), shape);
   }
 
   measure(shape: WorkerShape, positions: ArrayLike<number>, options?: MeasureOptions): Promise<Quality> {
