@@ -139,8 +139,15 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
   }
   if (free_count() == 0) return {false, true};
   const auto find_direction = [&] {
+    // The classic step first: it needs no trial. Longer ones where the matrix is known to brake.
+    const double length = memory_.empty() ? 1.0 : model.slack();
     memory_.direction(
-        gradient_, [this](Vector& d) { factor_.solve(d.data(), 3); }, direction_);
+        gradient_,
+        [&](Vector& d) {
+          factor_.solve(d.data(), 3);
+          d *= length;
+        },
+        direction_);
     return 2.0 * gradient_.dot(direction_);
   };
   double slope = find_direction();

@@ -66,7 +66,7 @@ class LocalGlobal {
   std::vector<Index> point_of_free_;
   std::vector<std::pair<Edge, double>> coupling_;  ///< (free, held point) and the matrix entry
   SparseCholesky factor_;
-  Lbfgs memory_;
+  Lbfgs memory_{6};         ///< more pairs cost more than they save
   bool evaluated_ = false;  ///< energy_ and gradient_ belong to the present x
   double energy_ = 0.0;
   Vector gradient_, direction_, previous_, step_;

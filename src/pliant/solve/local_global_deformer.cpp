@@ -47,6 +47,7 @@ class WithSoftHandles final : public LocalModel {
     model_.turned_gradient(from, turns, x, half_gradient);
     add_pull(x, half_gradient);
   }
+  double slack() const override { return model_.slack(); }
   double stiffness() const override { return model_.stiffness(); }
 
  private:

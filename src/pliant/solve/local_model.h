@@ -31,6 +31,9 @@ class LocalModel {
   /// Which points belong to parts that something holds; before the first evaluation, and again when
   /// constraints change.
   virtual void set_anchored(const std::vector<bool>& anchored) { (void)anchored; }
+  /// By how much the matrix exceeds the curvature of E in the directions that take longest: what
+  /// local quantities that follow take out of it. Steps beyond the first are this much longer.
+  virtual double slack() const { return 1.0; }
   /// A stiffness of the size of the energy's second derivatives: 1 for weights without a unit.
   virtual double stiffness() const = 0;
 };

@@ -18,6 +18,9 @@ class ArapModel final : public LocalModel {
   double evaluate(const Points& x, Points& half_gradient) override;
   void turned_gradient(const Points& from, const Rotations& turns, const Points& x,
                        Points& half_gradient) const override;
+  /// Measured: 3 saves a third of the iterations, 2 and 4.5 less. Smooth rows are taken as they
+  /// are.
+  double slack() const override { return rows_.empty() ? 3.0 : 1.0; }
   double stiffness() const override { return 1.0; }
 
   /// Of the last evaluation: its parts, E = rigidity + smoothness^2 ..., see ArapOptions.
