@@ -9,9 +9,14 @@
 
 #include <Eigen/Geometry>
 
+#include "pliant/sketch/tether.h"
+
 namespace pliant {
 namespace {
 
+// Beside a part it joins the region's s may differ from that part's by this and by this much a
+// length of the curve.
+constexpr double tether_slack = 0.1, tether_rate = 2.0;
 constexpr int joint_passes = 8;  // joints lie on facets: their depths are averaged along the stroke
 
 Index count_of(const std::vector<Index>& items) { return static_cast<Index>(items.size()); }
@@ -60,6 +65,7 @@ Limb::Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored)
   collect_points();
   skin();
   place_virtual_vertices();
+  prepare_smoother();
   bend_.assign(points_, 0.0);
   twist_.assign(points_, 0.0);
   scale_.assign(points_, 1.0);
@@ -113,15 +119,17 @@ void Limb::prepare_smoother() {
   std::vector<Index> local(points_, -1);
   for (Index i = 0; i < count_of(point_of_local); ++i) local[point_of_local[i]] = i;
   const auto edges = local_edges(seen_.triangles, region_, local, count_of(point_of_local));
+  pins_.resize(pinned_.size());
+  for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
+  tether(seen_.view, point_of_local, edges, pins_, tether_slack,
+         tether_rate / stroke_.curve.length(), raw_s_);
   smoother_ = ParameterSmoother(seen_.view, point_of_local, count_of(free_), edges);
   raw_.resize(free_.size());
   solved_.resize(free_.size());
-  pins_.resize(pinned_.size());
 }
 
 void Limb::set_smooth(bool smooth) {
   smooth_ = smooth;
-  if (smooth && smoother_.size() == 0) prepare_smoother();
   if (smooth) {
     for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
     solved_ = raw_s_;
