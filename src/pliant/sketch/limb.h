@@ -62,6 +62,7 @@ class Limb {
   };
   void skin();
   void collect_points();
+  void sort_along_curve();
   void prepare_smoother();
   void place_virtual_vertices();
   /// A parameter that is f(s) in the region and rigid(s of the virtual vertex) in a rigid part;

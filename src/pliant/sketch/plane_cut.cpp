@@ -212,7 +212,8 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
   assert(behind_ >= 0);
   // By the plane first: a crossed triangle goes with two of its corners.
   std::vector<CutSide> result;
-  std::vector<Index> near;
+  result.reserve(part_.size());
+  std::vector<Index> near, place_in_part;
   for (const Index t : part_) {
     const CutSide a = side_of(triangles_(0, t)), b = side_of(triangles_(1, t)),
                   c = side_of(triangles_(2, t));
@@ -222,7 +223,10 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
       low = std::min(low, distance_[corner]);
       high = std::max(high, distance_[corner]);
     }
-    if (result.back() != CutSide::outside && low <= band && high >= -band) near.push_back(t);
+    if (result.back() != CutSide::outside && low <= band && high >= -band) {
+      near.push_back(t);
+      place_in_part.push_back(static_cast<Index>(result.size()) - 1);
+    }
   }
 
   // Those that hang together with a loop that is cut.
@@ -267,11 +271,8 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
   });
   if (!has_source || !has_sink) return result;
   const std::vector<bool> beyond = min_cut(nodes, graph);
-  for (std::size_t i = 0; i < part_.size(); ++i) {
-    const Index at = place(part_[i]);
-    if (at < static_cast<Index>(near.size()) && near[at] == part_[i] && fuzzy(part_[i])) {
-      result[i] = beyond[at] ? CutSide::ahead : CutSide::behind;
-    }
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (fuzzy(near[i])) result[place_in_part[i]] = beyond[i] ? CutSide::ahead : CutSide::behind;
   }
   return result;
 }
