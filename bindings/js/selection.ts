@@ -16,7 +16,7 @@ export type Selection =
   | { every: readonly Selection[] }
   | { not: Selection };
 
-/** What a selection is checked against: vertices of the shape, and numbers a vertex. */
+/** What a selection is checked against: vertices of the shape (a step that refines may add more), and numbers a vertex. */
 export interface Extent {
   count: number;
   dimension: number;
@@ -30,11 +30,11 @@ type Reader = (place: Place, value: unknown, extent: Extent, depth: number) => S
 const maxDepth = 32;
 
 const readers: Record<string, Reader> = {
-  vertices(place, value, { count }) {
+  vertices(place, value, { count, dimension }) {
     const ids = vertexIds(place, value, count);
     if (ids.length === 0) place.reject("is empty; expected vertex ids");
-    return () => {
-      const mask = new Uint8Array(count);
+    return (rest) => {
+      const mask = new Uint8Array(rest.length / dimension);
       for (const id of ids) mask[id] = 1;
       return mask;
     };
@@ -58,9 +58,9 @@ const readers: Record<string, Reader> = {
     const offset = finite(place.at("offset"), half.offset);
     return where(dimension, (p, at) => normal.reduce((sum, n, i) => sum + n * p[at + i], 0) >= offset);
   },
-  all(place, value, { count }) {
+  all(place, value, { dimension }) {
     if (value !== true) place.fail(value, "true");
-    return () => new Uint8Array(count).fill(1);
+    return (rest) => new Uint8Array(rest.length / dimension).fill(1);
   },
   any: combined((a, b) => a | b),
   every: combined((a, b) => a & b),

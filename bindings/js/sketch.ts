@@ -55,7 +55,7 @@ export interface SketchState {
   [field: string]: unknown;
 }
 
-const maxAdded = 1_000_000;
+const defaultMaxAdded = 1_000_000;
 
 /**
  * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
@@ -161,8 +161,8 @@ export class Sketch {
   /** Splits edges that the pose stretches and bends, again and again; later poses move the added vertices too. `maxAdded`: 1,000,000. Errors: invalid-option, too-large. */
   refine(options: { maxAdded?: number } = {}): Refinement {
     const place = option("options");
-    const { maxAdded: limit = maxAdded } = fields(place, options, ["maxAdded"]);
-    const most = integer(place.at("maxAdded"), limit, 0, maxAdded * 10);
+    const { maxAdded = defaultMaxAdded } = fields(place, options, ["maxAdded"]);
+    const most = integer(place.at("maxAdded"), maxAdded, 0, 2 ** 31 - 1);
     const { core } = this.#owned;
     this.#owned.accept((raw) => core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)));
     return this.refinement!;

@@ -54,8 +54,9 @@ const deformers: Row[] = [
   ["no options", () => pliant.deformer(shape, undefined as never), "invalid-option", "options"],
   ["no method", () => pliant.deformer(shape, {} as never), "invalid-option", "options.method", "undefined", "embedded-graph"],
   ["an unknown method", build({ method: "magic" }), "invalid-option", "options.method", '"magic"'],
-  ...["volumetric-graph", "rigid-cells", "edge-material", "arap", "sketch"].map((method): Row =>
+  ...["volumetric-graph", "rigid-cells", "edge-material", "arap"].map((method): Row =>
     [`${method}, which is not here yet`, build({ method }), "invalid-option", method, "not in this build yet"]),
+  ["sketch as a solver", build({ method: "sketch" }), "invalid-option", "options.method", "pliant.sketch"],
   ["an unknown option", build({ nodecount: 3 }), "invalid-option", "options.nodecount", "option of embedded-graph", "nodeCount"],
   ["no nodes at all", build({ nodeCount: 0 }), "invalid-option", "options.nodeCount", "0", "from 1 to 121"],
   ["more nodes than vertices", build({ nodeCount: 122 }), "invalid-option", "options.nodeCount", "122", "from 1 to 121"],

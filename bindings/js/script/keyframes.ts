@@ -3,7 +3,8 @@
 
 import { list, type Place } from "../check.js";
 import type { Transform } from "../transform.js";
-import type { Goal, Keyframe, ScriptPlan, StepPlan } from "./read.js";
+import type { Goal, Keyframe, ScriptPlan, SolverPlan, StepPlan } from "./read.js";
+import { poseKeys, type SketchPlan } from "./sketch_read.js";
 
 type Json = Record<string, unknown>;
 
@@ -15,6 +16,7 @@ export function sameExceptGoals(place: Place, first: unknown, steps: unknown): v
 }
 
 function sameStep(place: Place, a: Json, b: Json): void {
+  if (b.method === "sketch") return sameSketch(place, a, b);
   if (b.drag !== undefined) place.at("drag").reject("is given in a keyframe; expected a drag only in steps");
   for (const key of ["method", "options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
   const [mine, theirs] = [a.handles as Json[], b.handles as Json[]];
@@ -24,6 +26,14 @@ function sameStep(place: Place, a: Json, b: Json): void {
     for (const key of ["name", "select"]) same(here.at(key), mine[i][key], handle[key]);
     sameKind(here, mine[i], handle);
   });
+}
+
+/** Poses over one region and one reference curve. */
+function sameSketch(place: Place, a: Json, b: Json): void {
+  if (b.refine !== undefined && b.refine !== false) place.at("refine").reject("is given in a keyframe; expected a refinement only in steps");
+  for (const key of new Set([...Object.keys(a), ...Object.keys(b)])) {
+    if (!(poseKeys as readonly string[]).includes(key)) same(place.at(key), a[key], b[key]);
+  }
 }
 
 function sameKind(place: Place, a: Json, b: Json): void {
@@ -54,10 +64,14 @@ function stepsAt(keyframes: Keyframe[], time: number): StepPlan[] {
   const a = keyframes[Math.max(0, next - 1)];
   if (next <= 0 || b.time === time) return b.steps;
   const u = (time - a.time) / (b.time - a.time);
-  return a.steps.map((step, i) => ({
-    ...step,
-    handles: step.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.steps[i].handles[h].goal, u) })),
-  }));
+  return a.steps.map((step, i) => stepBetween(step, b.steps[i], u));
+}
+
+/** Of two steps that differ in goals or poses only. */
+function stepBetween(a: StepPlan, b: StepPlan, u: number): StepPlan {
+  if ("sketch" in a) return { ...a, toward: { pose: (b as SketchPlan).pose, share: u } };
+  const goals = (b as SolverPlan).handles.map((handle) => handle.goal);
+  return { ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, goals[h], u) })) };
 }
 
 function between(a: Goal | undefined, b: Goal | undefined, u: number): Goal | undefined {

@@ -1,10 +1,12 @@
 // Reads an edit script: every key and value is checked, and an error names its place in the script.
 
-import { choice, fields, type Fields, filled, finite, integer, list, Place, points, positive } from "../check.js";
+import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../check.js";
 import { type DeformerOptions, type Method, readMethod, readOptions, readSeed } from "../methods/index.js";
 import { type Extent, readSelection, type Select } from "../selection.js";
 import { readTransform, type Transform } from "../transform.js";
 import { sameExceptGoals } from "./keyframes.js";
+import { readSketchStep, type SketchPlan } from "./sketch_read.js";
+import { maxCount, readSolve, type SolvePlan } from "./solve.js";
 
 /** Where a handle goes. */
 export type Goal = { move: Transform } | { targets: ArrayLike<number>; place: Place };
@@ -22,16 +24,16 @@ export interface DragPlan {
   iterations: number;
 }
 
-export interface StepPlan {
+export interface SolverPlan extends SolvePlan {
   place: Place;
   /** Checked, and read again by the deformer. */
   options: DeformerOptions;
   fixed: { place: Place; select: Select }[];
   handles: HandlePlan[];
-  iterations: number;
-  tolerance: number;
   drag: DragPlan[];
 }
+
+export type StepPlan = SolverPlan | SketchPlan;
 
 export interface Keyframe {
   time: number;
@@ -44,8 +46,6 @@ export interface ScriptPlan {
   /** How many frames to make; undefined where the script has steps. */
   frames: number | undefined;
 }
-
-const maxCount = 2 ** 31 - 1;
 
 /** Errors: invalid-script. */
 export function readScript(value: unknown, extent: Extent): ScriptPlan {
@@ -94,6 +94,7 @@ function readSteps(place: Place, value: unknown, context: Context): StepPlan[] {
 
 function readStep(place: Place, value: unknown, { extent, seed }: Context): StepPlan {
   if (typeof value !== "object" || value === null) place.fail(value, "a step");
+  if ((value as Fields).method === "sketch") return readSketchStep(place, value, extent, seed);
   const method = readMethod(place.at("method"), (value as Fields).method);
   const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
   readOptions(place.at("options"), step.options ?? {}, method, extent);
@@ -109,14 +110,6 @@ function readStep(place: Place, value: unknown, { extent, seed }: Context): Step
     ...readSolve(place.at("solve"), step.solve),
     drag: Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
       readDrag(place.at("drag").item(i), item, method, handles, extent)),
-  };
-}
-
-function readSolve(place: Place, value: unknown): { iterations: number; tolerance: number } {
-  const { iterations = 100, tolerance = 1e-6 } = fields(place, value ?? {}, ["iterations", "tolerance"]);
-  return {
-    iterations: integer(place.at("iterations"), iterations, 1, maxCount),
-    tolerance: positive(place.at("tolerance"), tolerance),
   };
 }
 

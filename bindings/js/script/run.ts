@@ -8,9 +8,15 @@ import type { Handle } from "../handle.js";
 import { measure } from "../quality.js";
 import { selectedIds } from "../selection.js";
 import { insideOf, Shape } from "../shape.js";
+import type { Refinement, Sketch } from "../sketch.js";
 import type { HandleState, State } from "../state.js";
+import { extended, extendedLabels, grown, rows } from "./growth.js";
 import { framesOf } from "./keyframes.js";
-import type { DragPlan, Goal, ScriptPlan, StepPlan } from "./read.js";
+import { locatedAsync } from "./located.js";
+import type { DragPlan, Goal, ScriptPlan, SolverPlan, StepPlan } from "./read.js";
+import type { FinishPlan, SketchPlan } from "./sketch_read.js";
+import { iterationsOnTheWay, makeSketch, poseSketch, seedSolver, sketchReport, wayTo } from "./sketch_run.js";
+import type { SolvePlan } from "./solve.js";
 import type { EditOptions, EditProgress, EditQuality, EditReport, EditResult, IterationReport, StepReport } from "./types.js";
 
 /** A finished edit. Its deformers live until `dispose`: other points can still be carried. */
@@ -20,6 +26,8 @@ export interface FinishedEdit {
   steps: StepReport[];
   quality: EditQuality;
   state: State;
+  /** What refinement added to the shape. */
+  refinement: Refinement | undefined;
   /** Carries points, in coordinates of the shape at rest, through all steps; in place. */
   carry(points: Float64Array): void;
   dispose(): void;
@@ -46,14 +54,15 @@ export async function runScript(core: Core, shape: Shape, plan: ScriptPlan, opti
   const frames: FloatArray[] = [];
   const reports: NonNullable<EditReport["frames"]> = [];
   let state: State | undefined;
+  let refinement: Refinement | undefined;
   for await (const edit of runFrames(core, shape, plan, options)) {
     frames.push(insideOf(shape).single ? Float32Array.from(edit.positions) : edit.positions);
     reports.push({ time: edit.time, steps: edit.steps, quality: edit.quality });
-    state = edit.state;
+    ({ state, refinement } = edit);
   }
   const positions = frames[frames.length - 1];
   const report = reportOf(shape, reports, plan);
-  return { positions, report, state: state!, ...(plan.frames === undefined ? {} : { frames }) };
+  return { positions, report, state: state!, ...(refinement ? { refinement } : {}), ...(plan.frames === undefined ? {} : { frames }) };
 }
 
 /** The report of a script from those of its frames. */
@@ -64,11 +73,24 @@ export function reportOf(shape: Shape, frames: NonNullable<EditReport["frames"]>
 }
 
 type Report = (progress: Omit<EditProgress, "frame" | "frames">) => void;
+type OnStep = (step: Pick<Step, "iteration" | "energy">) => void;
 
-/** One pass over the steps. Each makes a deformer over the result of the one before. */
+/** What a step has left. */
+interface Done {
+  /** At rest in this step. */
+  shape: Shape;
+  positions: Float64Array;
+  state(): State;
+}
+
+/** One pass over the steps. Each starts from the result of the one before. */
 class Run {
-  readonly #shapes: Shape[] = [];
-  readonly #deformers: Deformer[] = [];
+  readonly #objects: { dispose(): void }[] = [];
+  readonly #carriers: ((points: Float64Array) => void)[] = [];
+  #last: Done | undefined;
+  #growth: Refinement | undefined;
+  /** Of the last sketch step, one a vertex. */
+  #labels: Uint32Array | undefined;
 
   constructor(readonly core: Core, readonly shape: Shape, readonly signal: AbortSignal | undefined, readonly onStep: Report) {}
 
@@ -76,47 +98,47 @@ class Run {
     const reports: StepReport[] = [];
     for (const [step, plan] of plans.entries()) {
       throwIfAborted(this.signal);
-      const onStep = ({ iteration, energy }: Step) => this.onStep({ step, steps: plans.length, iteration, energy });
-      reports.push(await located(plan.place, () => this.#step(plan, onStep)));
+      const onStep: OnStep = ({ iteration, energy }) => this.onStep({ step, steps: plans.length, iteration, energy });
+      reports.push(await locatedAsync(plan.place, () => ("sketch" in plan ? this.#sketch(plan, onStep) : this.#solver(plan, onStep))));
     }
-    const last = this.#deformers[this.#deformers.length - 1];
-    const positions = this.#positions(last);
-    const state = last.state();
+    const { shape, positions, state: save } = this.#last!;
+    const state = this.#grownState(save(), shape);
     const quality: EditQuality = {
-      ...measure(this.core, this.shape, positions),
+      ...measure(this.core, this.#measured(), positions),
       constraintError: constraintError(state.handles, positions, this.shape),
     };
-    const carry = (points: Float64Array) => this.#deformers.forEach((deformer) => deformer.transformPoints(points, points));
-    return { positions, steps: reports, quality, state, carry };
+    const carry = (points: Float64Array) => this.#carriers.forEach((carrier) => carrier(points));
+    return { positions, steps: reports, quality, state, refinement: this.#growth, carry };
   }
 
   dispose(): void {
-    for (const object of [...this.#deformers.splice(0), ...this.#shapes.splice(0)]) object.dispose();
+    for (const object of this.#objects.splice(0)) object.dispose();
   }
 
-  async #step(plan: StepPlan, onStep: (step: Step) => void): Promise<StepReport> {
+  async #solver(plan: SolverPlan, onStep: OnStep): Promise<StepReport> {
     const begin = performance.now();
     const shape = this.#restShape();
     const { fixed, handles: lists } = resolve(plan, insideOf(shape).rest);
-    const deformer = new Deformer(this.core, shape, plan.options);
-    this.#deformers.push(deformer);
+    const deformer = this.#own(new Deformer(this.core, shape, plan.options));
     deformer.setFixed(fixed);
     const handles = lists.map((ids) => deformer.addHandle(ids));
     handles.forEach((handle, i) => reach(handle, plan.handles[i].goal, shape.dimension));
-    const setupMs = performance.now() - begin;
-    const start = deformer.energy().total;
-    const solve = await this.#solve(deformer, plan, plan.iterations, onStep);
-    const { unknowns, factorizations, analyses } = deformer.counters();
+    const report = await this.#solved(deformer, plan, plan.iterations, performance.now() - begin, onStep);
     const drag = [];
     for (const entry of plan.drag) drag.push(await this.#drag(deformer, handles, plan, entry, onStep));
+    this.#finished(deformer);
     const { total, terms } = deformer.energy();
-    const report: StepReport = {
-      method: deformer.method, unknowns, factorizations, analyses, setupMs, start, ...solve, energy: { total, ...terms },
-    };
-    return drag.length > 0 ? { ...report, drag } : report;
+    return drag.length > 0 ? { ...report, energy: { total, ...terms }, drag } : report;
   }
 
-  async #solve(deformer: Deformer, { tolerance }: StepPlan, maxIterations: number, onStep: (step: Step) => void) {
+  async #solved(deformer: Deformer, plan: SolvePlan, maxIterations: number, setupMs: number, onStep: OnStep): Promise<StepReport> {
+    const start = deformer.energy().total;
+    const solve = await this.#solve(deformer, plan, maxIterations, onStep);
+    const { total, terms } = deformer.energy();
+    return { method: deformer.method, ...deformer.counters(), setupMs, start, ...solve, energy: { total, ...terms } };
+  }
+
+  async #solve(deformer: Deformer, { tolerance }: SolvePlan, maxIterations: number, onStep: OnStep) {
     const iterations: IterationReport[] = [];
     const onProgress = (step: Step) => {
       if (step.accepted) iterations.push({ energy: step.energy, ms: step.milliseconds });
@@ -126,7 +148,7 @@ class Run {
     return { iterations, converged };
   }
 
-  async #drag(deformer: Deformer, handles: Handle[], plan: StepPlan, entry: DragPlan, onStep: (step: Step) => void) {
+  async #drag(deformer: Deformer, handles: Handle[], plan: SolverPlan, entry: DragPlan, onStep: OnStep) {
     const before = deformer.counters();
     for (const { handle, goal } of entry.goals) reach(handles[handle], goal, this.shape.dimension);
     const { iterations } = await this.#solve(deformer, plan, entry.iterations, onStep);
@@ -138,23 +160,91 @@ class Run {
     };
   }
 
-  /** The result so far, as a shape at rest. */
-  #restShape(): Shape {
-    const last = this.#deformers[this.#deformers.length - 1];
-    if (!last) return this.shape;
-    const { triangles } = insideOf(this.shape);
-    const shape = new Shape(this.core, { positions: this.#positions(last), triangles, dimension: this.shape.dimension });
-    this.#shapes.push(shape);
-    return shape;
+  /** What a deformer over the current shape came to. */
+  #finished(deformer: Deformer): void {
+    const { shape } = deformer;
+    this.#carriers.push((points) => deformer.transformPoints(points, points));
+    this.#last = { shape, positions: deformer.positions(new Float64Array(insideOf(shape).rest.length)), state: () => deformer.state() };
   }
 
-  #positions(deformer: Deformer): Float64Array {
-    return deformer.positions(new Float64Array(this.shape.report.vertices * this.shape.dimension));
+  async #sketch(plan: SketchPlan, onStep: OnStep): Promise<StepReport> {
+    const begin = performance.now();
+    const shape = this.#restShape();
+    const sketch = this.#own(makeSketch(this.core, shape, plan, this.#labels));
+    const posing = performance.now();
+    const morph = poseSketch(sketch, plan);
+    const end = performance.now();
+    this.#labels = sketch.labels();
+    if (plan.finish) {
+      const finish = await this.#finish(sketch, plan.finish, morph, onStep);
+      return { ...sketchReport(sketch, plan, posing - begin, end - posing), finish };
+    }
+    onStep({ iteration: 1, energy: 0 });
+    const { refinement } = sketch;
+    if (refinement) {
+      this.#growth = grown(this.#growth, refinement);
+      this.#labels = extendedLabels(this.#labels, refinement.parents);
+    }
+    this.#carriers.push(refuseToCarry);
+    const positions = sketch.positions(new Float64Array(3 * sketch.vertices));
+    this.#last = { shape, positions, state: () => ({ handles: [], ...sketch.state() }) };
+    return sketchReport(sketch, plan, posing - begin, end - posing);
+  }
+
+  /** A solver goes on from the pose, in parts where it turns far. */
+  async #finish(sketch: Sketch, plan: FinishPlan, morph: number, onStep: OnStep): Promise<StepReport> {
+    const begin = performance.now();
+    const { deformer, reach: reachShare } = seedSolver(this.core, sketch, plan, morph);
+    this.#own(deformer);
+    let left = plan.iterations;
+    for (const share of wayTo(sketch.pose())) {
+      reachShare(share);
+      const { iterations } = await this.#solve(deformer, plan, Math.min(iterationsOnTheWay, left), onStep);
+      left = Math.max(1, left - iterations.length);
+    }
+    reachShare(1);
+    const report = await this.#solved(deformer, plan, left, performance.now() - begin, onStep);
+    this.#finished(deformer);
+    const solved = this.#last!.state;
+    this.#last!.state = () => ({ ...sketch.state(), finish: { method: deformer.method, ...solved() }, handles: solved().handles });
+    return report;
+  }
+
+  #own<T extends { dispose(): void }>(object: T): T {
+    this.#objects.push(object);
+    return object;
+  }
+
+  /** The result so far, as a shape at rest. */
+  #restShape(): Shape {
+    return this.#last ? this.#shapeOf(this.#last.positions) : this.shape;
+  }
+
+  /** The input at rest, with the vertices that were added. */
+  #measured(): Shape {
+    return this.#growth ? this.#shapeOf(extended(insideOf(this.shape).rest, 3, this.#growth.parents)) : this.shape;
+  }
+
+  #shapeOf(positions: Float64Array): Shape {
+    const triangles = this.#growth?.triangles ?? insideOf(this.shape).triangles;
+    return this.#own(new Shape(this.core, { positions, triangles, dimension: this.shape.dimension }));
+  }
+
+  /** A state that says where all added vertices come from, and where they are at rest in its step. */
+  #grownState(state: State, shape: Shape): State {
+    if (!this.#growth) return state;
+    const { parents } = this.#growth;
+    const added = extended(insideOf(shape).rest, 3, parents.subarray(2 * (shape.report.vertices - this.shape.report.vertices)));
+    return { ...state, parents: rows(parents, 2), rest: rows(added.subarray(3 * this.shape.report.vertices), 3) };
   }
 }
 
+function refuseToCarry(): never {
+  throw new PliantError("not-solvable", "sketch moves a surface, not the space around it; expected embedded-graph or another method that carries points");
+}
+
 /** The vertices of a step: fixed ones, and those of each handle, ascending; none in two roles. */
-function resolve(plan: StepPlan, rest: Float64Array): { fixed: number[]; handles: Int32Array[] } {
+function resolve(plan: SolverPlan, rest: Float64Array): { fixed: number[]; handles: Int32Array[] } {
   const roles = new Map<number, Place>();
   for (const { place, select } of plan.fixed) {
     for (const id of selectedIds(place, select, rest)) roles.set(id, place);
@@ -182,17 +272,6 @@ function reach(handle: Handle, goal: Goal | undefined, dimension: number): void 
   const given = goal.targets.length / dimension;
   if (given !== vertices) goal.place.reject(`has ${given} points; expected ${vertices}, one a selected vertex`);
   handle.moveTo(goal.targets);
-}
-
-/** Errors that a script's values bring out in the deformer, as errors of the script. */
-async function located<T>(place: Place, work: () => Promise<T>): Promise<T> {
-  try {
-    return await work();
-  } catch (error) {
-    const ofValues = error instanceof PliantError && ["invalid-option", "invalid-handle", "invalid-shape"].includes(error.code);
-    if (!ofValues) throw error;
-    throw new PliantError("invalid-script", `${place.path}: ${error.message}`, { cause: error });
-  }
 }
 
 /** Largest distance of a handle's vertex from its target over the diagonal. */

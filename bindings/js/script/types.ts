@@ -5,6 +5,7 @@ import type { EmbeddedGraphOptions } from "../methods/index.js";
 import type { Quality } from "../quality.js";
 import type { Selection } from "../selection.js";
 import type { ShapeReport } from "../shape.js";
+import type { Camera, Mirror, Profile, Refinement, Stroke } from "../sketch.js";
 import type { State } from "../state.js";
 import type { Transform } from "../transform.js";
 
@@ -12,9 +13,9 @@ export interface EditScript {
   format: "pliant-edit";
   version: 1;
   /** Each starts from the result of the one before. Either steps or keyframes. */
-  steps?: readonly ScriptStep[];
-  /** The same steps at several times, with other moves. */
-  keyframes?: readonly { time: number; steps: readonly ScriptStep[] }[];
+  steps?: readonly (ScriptStep | ScriptSketch)[];
+  /** The same steps at several times, with other moves or poses. */
+  keyframes?: readonly { time: number; steps: readonly (ScriptStep | ScriptSketch)[] }[];
   /** With keyframes: how many frames, evenly from the first time to the last. */
   frames?: number;
   /** 1. */
@@ -30,6 +31,37 @@ export interface ScriptStep {
   solve?: { iterations?: number; tolerance?: number };
   /** What happened under one grab, in order, after the first solve. */
   drag?: readonly ScriptDrag[];
+}
+
+/** One limb, chosen by a stroke and posed by at least one of bend, twist, scale and turning, which add up. */
+export interface ScriptSketch {
+  method: "sketch";
+  camera: Camera;
+  reference: Stroke;
+  bend?: { target: Stroke };
+  twist?: { degrees: number };
+  /** Over the section's size at rest. */
+  scale?: { profile: Profile };
+  /** See `Sketch.turning` and `Sketch.twistSpeed`. */
+  turning?: { profile: Profile };
+  twistSpeed?: { profile: Profile };
+  partitions?: readonly Stroke[];
+  /** true. */
+  smooth?: boolean;
+  mirror?: Mirror;
+  /** Stops on the way from rest (0) to the pose (1). */
+  morph?: number;
+  /** The region of another stroke, with the partitions of this step; "previous": that of the sketch step before. */
+  region?: { camera: Camera; reference: Stroke } | "previous";
+  /** Adds vertices, which follow those before, where the limb is stretched and bent: not in keyframes, not with finish. maxAdded: 1,000,000. */
+  refine?: boolean | { maxAdded?: number };
+  /** A solver goes on from the pose: the static part is fixed, rigid parts and region vertices `spacing` diagonals apart (0.05) are its handle. */
+  finish?: {
+    method: EmbeddedGraphOptions["method"];
+    options?: Omit<EmbeddedGraphOptions, "method">;
+    spacing?: number;
+    solve?: { iterations?: number; tolerance?: number };
+  };
 }
 
 /** Where a handle goes; targets one a vertex, ascending vertex id. */
@@ -68,11 +100,13 @@ export interface EditProgress {
 }
 
 export interface EditResult {
-  /** Of the input's vertices, in the precision the shape came in; with keyframes, of the last frame. */
+  /** Of the input's vertices and those that refinement added, in the precision the shape came in; with keyframes, of the last frame. */
   positions: FloatArray;
   report: EditReport;
-  /** Of the last step. */
+  /** Of the last step; after a sketch its `SketchState`. Where vertices were added: their `parents`, and where they were at `rest` in that step. */
   state: State;
+  /** Where steps have refined the shape: what they added to the input in all. */
+  refinement?: Refinement;
   /** With keyframes: the positions of every frame. */
   frames?: FloatArray[];
 }
@@ -110,6 +144,9 @@ export interface StepReport {
   converged: boolean;
   /** `total` is the weighted sum of the others. */
   energy: Record<string, number>;
+  /** Of a sketch: vertices that refinement added, and what the solver that finished it did. */
+  added?: number;
+  finish?: StepReport;
   /** One entry a drag of the script. */
   drag?: { factorizations: number; analyses: number; iterations: IterationReport[] }[];
 }
