@@ -27,17 +27,6 @@ constexpr double kLeastDeterminant = 1e-3;
 /// Turns of the constraints below this (radians) need no prediction.
 constexpr double kSmallTurn = 0.2;
 
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
-}
-
-Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
-}
-
 /// det(R + alpha D) = c0 + c1 alpha + c2 alpha^2 + c3 alpha^3.
 std::array<double, 4> determinant_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
   auto mixed = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
