@@ -62,6 +62,26 @@ TEST_CASE("the fast solver reaches the energy of Gauss-Newton") {
   }
 }
 
+TEST_CASE("terms that fell by orders of magnitude are reported to all their digits") {
+  const test::Mesh mesh = test::potato(4);
+  const auto grab = [&](EmbeddedGraph& deformer) {
+    REQUIRE(deformer.set_fixed(test::pick(mesh, [](const auto& p) { return p.z() < -0.6; })).ok());
+    return *deformer.add_handle(test::pick(mesh, [](const auto& p) { return p.z() > 0.1; }));
+  };
+  const auto solved = make(mesh, {.node_count = 100, .constraint_weight = 1e4});
+  REQUIRE(solved->move_handle(grab(*solved), test::turn(80, {1, 0.2, 0}, {0, 0, -0.5})).ok());
+  test::settle(*solved);
+  const auto recomputed = make(mesh, {.node_count = 100, .constraint_weight = 1e4});
+  grab(*recomputed);
+  REQUIRE(recomputed->restore(solved->save()).ok());
+  const Energy energy = solved->energy(), expected = recomputed->energy();
+  for (std::size_t i = 0; i < expected.terms.size(); ++i) {
+    CAPTURE(expected.terms[i].name);
+    const double value = expected.terms[i].value;
+    CHECK(std::abs(energy.terms[i].value - value) <= 1e-9 * value);
+  }
+}
+
 TEST_CASE("Gauss-Newton converges as in the paper, about six iterations") {
   BumpyEdit edit(61, {.node_count = 200, .solver = EmbeddedGraphSolver::gauss_newton}, 0.3);
   const StepReport report = test::settle(*edit.deformer, 100, 1e-6);

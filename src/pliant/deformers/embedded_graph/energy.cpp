@@ -295,10 +295,12 @@ void GraphEnergy::evaluate(const Vector& x) {
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
+  const double constraint = terms_.constraint + alpha * (con_slope_ + alpha * con_curvature_);
+  // What is left after such a fall is mostly rounding.
+  if (!(constraint > 1e-4 * terms_.constraint)) return evaluate(x);
   reg_ += alpha * reg_along_;
   con_gradient_ += alpha * con_along_;
-  const double constraint = terms_.constraint + alpha * (con_slope_ + alpha * con_curvature_);
-  terms_ = {rotation_terms(x), reg_.squaredNorm(), std::max(0.0, constraint)};
+  terms_ = {rotation_terms(x), reg_.squaredNorm(), constraint};
 }
 
 void GraphEnergy::retreat(double alpha, const Terms& terms) {

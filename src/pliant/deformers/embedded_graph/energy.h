@@ -62,8 +62,8 @@ class GraphEnergy {
 
   /// Moves to x: everything from scratch, exactly.
   void evaluate(const Vector& x);
-  /// Moves on along the direction last given to `along`; E_con is updated, to rounding of its
-  /// change.
+  /// Moves on along the direction last given to `along`; E_con is updated where that keeps its
+  /// digits, else evaluated anew.
   void advance(double alpha, const Vector& x);
   /// Takes the last `advance` back; `terms` are those from before it.
   void retreat(double alpha, const Terms& terms);
