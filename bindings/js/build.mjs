@@ -23,9 +23,9 @@ const entries = {
 
 /** Bytes. `file`: with all it imports; `raw`: as it is; `gzip`: on the wire. */
 const budget = [
-  { file: "pliant.wasm", raw: 370e3, gzip: 156e3 },
-  { file: "pliant.js", gzip: 20e3 },
-  { file: "inline.js", gzip: 180e3 },
+  { file: "pliant.wasm", raw: 500e3, gzip: 212e3 },
+  { file: "pliant.js", gzip: 23e3 },
+  { file: "inline.js", gzip: 240e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */
