@@ -164,7 +164,7 @@ void Limb::spread(const F& f, double at_static, const G& rigid, std::vector<doub
       solved_[i] = f(s_[free_[i]]);
     }
     for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = values[pinned_[i]];
-    smoother_.solve(raw_, pins_, solved_);
+    smoother_.solve(raw_, pins_, solved_, tolerance_);
     for (std::size_t i = 0; i < free_.size(); ++i) values[free_[i]] = solved_[i];
   } else {
     for (const Index p : free_) values[p] = f(s_[p]);
@@ -178,9 +178,10 @@ void Limb::spread_to_added(std::vector<double>& values) const {
   }
 }
 
-void Limb::set_pose(const SketchPose& pose) {
+void Limb::set_pose(const SketchPose& pose, double tolerance) {
   assert(has_joints() || (!pose.twists() && !pose.scales()));
   pose_ = pose;
+  tolerance_ = tolerance;
   if (pose.bends()) {
     angles_ = bent(stroke_.curve, pose, 1.0).totals();
     for (std::size_t i = 0; i < angles_.size(); ++i) {

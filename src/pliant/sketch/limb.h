@@ -32,8 +32,9 @@ class Limb {
 
   /// Whether eq. 9 smooths s and every other parameter. The pose is to be set again.
   void set_smooth(bool smooth);
-  /// Parameters of all points in a pose; twists and scales need joints.
-  void set_pose(const SketchPose& pose);
+  /// Parameters of all points in a pose, eq. 9 to a relative tolerance; twists and scales need
+  /// joints.
+  void set_pose(const SketchPose& pose, double tolerance);
   /// Writes the places of all points that a share t of the pose moves; others are left alone.
   void show(double t, Points& world) const;
 
@@ -92,6 +93,7 @@ class Limb {
   ParameterSmoother smoother_;
   std::vector<double> raw_, pins_, solved_;
   SketchPose pose_;
+  double tolerance_ = 1e-8;  ///< of the parameters of pose_
   std::vector<double> angles_;  ///< theta of eq. 5, evenly over s, of the whole pose
   Points joints_;
 };

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double fidelity_share = 0.05;  // w_c / 2 over the sum of w: sum w = 10 w_c
 constexpr double relaxation = 0.97;      // of what the incomplete factor leaves out
-constexpr double tolerance = 1e-8;
 constexpr int max_passes = 200;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -118,7 +117,7 @@ void ParameterSmoother::residual(std::span<const double> raw, std::span<const do
 }
 
 int ParameterSmoother::solve(std::span<const double> raw, std::span<const double> pinned,
-                             std::span<double> u) {
+                             std::span<double> u, double tolerance) {
   const Index n = size();
   double largest = 0.0;
   for (const double value : raw) largest = std::max(largest, std::abs(value));

@@ -24,8 +24,9 @@ class ParameterSmoother {
                     std::span<const std::array<Index, 2>> edges);
 
   /// raw: of the free points; pinned: of the pinned ones; u: of the free ones, a guess on the way
-  /// in. Root mean square error about 1e-8 of the largest value. Returns the passes it took.
-  int solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u);
+  /// in. Root mean square error about `tolerance` of the largest value. Returns the passes it took.
+  int solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u,
+            double tolerance = 1e-8);
 
   Index size() const { return static_cast<Index>(diagonal_.size()); }
 

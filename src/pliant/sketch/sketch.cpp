@@ -145,9 +145,9 @@ SketchPose SketchImpl::whole_pose() const {
   return pose;
 }
 
-void SketchImpl::pose_changed() {
+void SketchImpl::pose_changed(bool preview) {
   const SketchPose pose = whole_pose();
-  for (Limb& limb : limbs) limb.set_pose(pose);
+  for (Limb& limb : limbs) limb.set_pose(pose, preview ? 1e-4 : 1e-8);
   show();
 }
 
@@ -257,7 +257,7 @@ Status Sketch::bend(const Stroke& target, bool unfinished) {
   for (std::size_t i = 0; i < pose.turns.size(); ++i) {
     pose.turns[i] = curve.turns()[i] - reference.turns()[i];
   }
-  impl_->pose_changed();
+  impl_->pose_changed(unfinished);
   return {};
 }
 

@@ -28,8 +28,8 @@ struct SketchImpl {
   const PlaneCurve& curve() const { return limbs.front().reference(); }
   /// The base pose with the turning control, eq. 8.
   SketchPose whole_pose() const;
-  /// New parameters, then `show`.
-  void pose_changed();
+  /// New parameters, then `show`. A preview may be off by what no eye sees.
+  void pose_changed(bool preview = false);
   /// Places of all points.
   void show();
   Status find_joints();
