@@ -90,9 +90,9 @@ class Frames {
     }
   }
 
-  async add({ positions, time }: FinishedEdit): Promise<void> {
+  async add({ positions, time, refinement }: FinishedEdit): Promise<void> {
     if (this.#animated) this.#kept.push({ positions, time });
-    else await this.outputs.write(this.#path(), await this.#encoded(() => this.file.write(this.format, positions)));
+    else await this.outputs.write(this.#path(), await this.#encoded(() => this.file.write(this.format, positions, refinement)));
     ++this.#count;
   }
 

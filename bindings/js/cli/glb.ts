@@ -7,6 +7,7 @@ import { ALL_EXTENSIONS } from "@gltf-transform/extensions";
 import { PliantError } from "../errors.js";
 import { NormalGroups } from "../normals.js";
 import type { Mesh } from "./io.js";
+import { triangleCorners } from "./refined.js";
 import { applyInverse, applyTo, directionBack, directionOut } from "./matrix.js";
 
 const io = new WebIO().setLogger(new Logger(Logger.Verbosity.SILENT)).registerExtensions(ALL_EXTENSIONS);
@@ -240,15 +241,4 @@ function splitSeams(mesh: Mesh): { source: number[]; indices: Uint32Array; uv: F
     return source.length - 1;
   });
   return { source, indices, uv: Float32Array.from(uv) };
-}
-
-/** Corners in `faceVertices` of the triangles: a polygon of k corners has k - 2 of them, in order. */
-function triangleCorners({ faceVertices, faceOffsets, triangles }: Mesh): Uint32Array {
-  const corners = new Uint32Array(triangles.length);
-  let at = 0;
-  for (let face = 0; face + 1 < faceOffsets.length; ++face) {
-    const [begin, end] = [faceOffsets[face], faceOffsets[face + 1]];
-    for (const last = at + 3 * (end - begin - 2); at < last; ++at) corners[at] = faceVertices.indexOf(triangles[at], begin);
-  }
-  return corners;
 }

@@ -4,7 +4,9 @@ import { readFile } from "node:fs/promises";
 import { extname } from "node:path";
 import { Failure, onFile } from "./failure.js";
 import { Glb, glbOf } from "./glb.js";
+import type { Refinement } from "../sketch.js";
 import { type Mesh, ShapeDocument } from "./io.js";
+import { refinedMesh } from "./refined.js";
 
 /** Formats that pliant-io knows, and that can be passed through in pieces. */
 export const streamable = ["obj", "ply", "off", "stl", "xyz"];
@@ -22,8 +24,8 @@ export interface ShapeFile {
   path: string;
   format: string;
   mesh: Mesh;
-  /** The same file with other positions, in any format. */
-  write(format: string, positions: Float64Array): Promise<Uint8Array>;
+  /** The same file with other positions, in any format; with a refinement, what a mesh has: positions, faces and texture coordinates. */
+  write(format: string, positions: Float64Array, refinement?: Refinement): Promise<Uint8Array>;
   /** One .glb that shows positions one after the other, at times in seconds. */
   animate(frames: Float64Array[], times: number[]): Promise<Uint8Array>;
 }
@@ -42,10 +44,9 @@ async function fromDocument(path: string, format: string, bytes: Uint8Array): Pr
   const { mesh } = document;
   return {
     path, format, mesh,
-    write: async (to, positions) => {
-      if (to !== "glb") return document.write(to, positions);
-      const { glb, expand } = glbOf(mesh);
-      return glb.write(expand(positions));
+    write: async (to, positions, refinement) => {
+      if (refinement) return writeMesh(to, refinedMesh(mesh, refinement), positions);
+      return to === "glb" ? writeMesh(to, mesh, positions) : document.write(to, positions);
     },
     animate: (frames, times) => {
       const { glb, expand } = glbOf(mesh);
@@ -55,13 +56,19 @@ async function fromDocument(path: string, format: string, bytes: Uint8Array): Pr
   };
 }
 
+async function writeMesh(format: string, mesh: Mesh, positions: Float64Array): Promise<Uint8Array> {
+  if (format !== "glb") return (await ShapeDocument.from(mesh)).write(format, positions);
+  const { glb, expand } = glbOf(mesh);
+  return glb.write(expand(positions));
+}
+
 async function fromGlb(path: string, bytes: Uint8Array): Promise<ShapeFile> {
   const { mesh } = await Glb.read(bytes);
   return {
     path, format: "glb", mesh,
-    write: async (to, positions) => {
-      if (to === "glb") return (await Glb.read(bytes)).write(positions);
-      return (await ShapeDocument.from(mesh)).write(to, positions);
+    write: async (to, positions, refinement) => {
+      if (refinement) return writeMesh(to, refinedMesh(mesh, refinement), positions);
+      return to === "glb" ? (await Glb.read(bytes)).write(positions) : writeMesh(to, mesh, positions);
     },
     animate: async (frames, times) => {
       const glb = await Glb.read(bytes);
