@@ -4,8 +4,9 @@ import { coordinates, fields, type FloatArray, integer, output, Place, positive,
 import { accept, build, type Core, disposeSymbol, Owned } from "./core.js";
 import { PliantError } from "./errors.js";
 import { Handle } from "./handle.js";
-import { type DeformerOptions, type Method, type Options, readMethod, readOptions } from "./methods/index.js";
+import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "./methods/index.js";
 import type { RawDeformer } from "./raw.js";
+import type { Extent } from "./selection.js";
 import { type Shape, shapeFor } from "./shape.js";
 import { readTables, type State, toState, writeTables } from "./state.js";
 
@@ -52,25 +53,24 @@ export interface Counters {
 const pointsPerCall = 1 << 16;
 
 /** Made by `pliant.deformer`. Vertex ids are the input's; results are copies, in the input's order. */
-export class Deformer {
+export class Deformer<M extends MethodName = MethodName> {
   readonly shape: Shape;
-  readonly method: string;
+  readonly method: M;
   readonly #owned: Owned<RawDeformer>;
   readonly #method: Method;
-  readonly #options: Options;
+  #options: Options;
   readonly #handles = new Map<number, Handle>();
   #refined = false;
 
   /** @internal */
-  constructor(core: Core, shape: Shape, options: DeformerOptions) {
+  constructor(core: Core, shape: Shape, options: DeformerOptions<M>) {
     const place = new Place("invalid-option", "options");
     shapeFor(core, shape);
     if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
-    const extent = { count: shape.report.vertices, dimension: shape.dimension };
     this.shape = shape;
     this.#method = readMethod(place.at("method"), options.method);
-    this.method = this.#method.name;
-    this.#options = readOptions(place, options, this.#method, extent, ["method"]);
+    this.method = this.#method.name as M;
+    this.#options = readOptions(place, options, this.#method, extentOf(shape), ["method"]);
     const raw = build(core, () => new core.raw.Deformer(), (unbuilt) =>
       this.#method.build(core, unbuilt, shape, this.#options, place));
     this.#owned = new Owned(core, raw, this, "deformer");
@@ -99,6 +99,23 @@ export class Deformer {
   /** The handles there are, oldest first. */
   get handles(): Handle[] {
     return [...this.#handles.values()];
+  }
+
+  // -- Options that are live. -----------------------------------------------------------------------
+
+  /**
+   * Changes options of a living deformer; handles, targets and the deformation stay. Those of `edge-material` and `arap`:
+   * what the next step pays for is said at each. Errors: invalid-option; then nothing has changed.
+   */
+  setOptions(options: LiveOptions[M]): void {
+    const place = new Place("invalid-option", "options");
+    const given = readLive(place, options, this.#method, extentOf(this.shape));
+    const { merge, update } = this.#method;
+    if (!update) return;
+    const merged = merge?.(this.#options, given) ?? { ...this.#options, ...given };
+    this.#method.check(place, merged);
+    this.#owned.accept((raw) => update(this.#core, raw, this.shape, merged, place));
+    this.#options = merged;
   }
 
   // -- Solving. -------------------------------------------------------------------------------------
@@ -135,7 +152,7 @@ export class Deformer {
   /** Whether refinement has added something to solve. */
   #refine(): boolean {
     if (this.#refined) return false;
-    const result = this.#owned.call((raw) => this.#method.refine(raw, this.shape, this.#options));
+    const result = this.#owned.call((raw) => this.#method.refine?.(raw, this.shape, this.#options));
     if (!result) return false;
     accept(result.status);
     this.#refined = true;
@@ -180,7 +197,14 @@ export class Deformer {
     return result;
   }
 
-  /** Other points, in rest coordinates, carried by the same deformation; single precision in, single out. `out` may be `points`. */
+  /** The directions in use by `edge-material`, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or zero. Errors: not-solvable. */
+  field(): Float32Array {
+    const { field } = this.#method;
+    if (!field) throw new PliantError("not-solvable", `${this.method} has no directions; expected edge-material`);
+    return this.#owned.call((raw) => Float32Array.from(field(raw)));
+  }
+
+  /** Other points, in rest coordinates, carried by the same deformation; single precision in, single out. `out` may be `points`. Errors: not-solvable where the method does not deform space. */
   transformPoints(points: Float32Array): Float32Array;
   transformPoints(points: ArrayLike<number>): Float64Array;
   transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): T;
@@ -263,6 +287,10 @@ function copyPoints(from: FloatArray, to: FloatArray, at: number, dimension: num
     to[at] = from[i];
     to[at + 1] = from[i + 1];
   }
+}
+
+function extentOf(shape: Shape): Extent {
+  return { count: shape.report.vertices, dimension: shape.dimension };
 }
 
 function readTolerance(place: Place, { tolerance = 1e-6 }: Readonly<Record<string, unknown>>): number {

@@ -3,7 +3,7 @@
 import { fields, Place } from "./check.js";
 import type { Core } from "./core.js";
 import { Deformer, readCallback, readSignal } from "./deformer.js";
-import type { DeformerOptions } from "./methods/index.js";
+import type { DeformerOptions, MethodName } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./quality.js";
 import type { EditOptions, EditResult, EditScript } from "./script/types.js";
 import { Shape, shapeFor, type ShapeInput } from "./shape.js";
@@ -24,7 +24,7 @@ export class Pliant {
   }
 
   /** Builds a deformer over a shape. Errors: invalid-option, too-large. */
-  deformer(shape: Shape, options: DeformerOptions): Deformer {
+  deformer<M extends MethodName>(shape: Shape, options: { method: M } & DeformerOptions<M>): Deformer<M> {
     return new Deformer(this.#core, shape, options);
   }
 

@@ -5,7 +5,7 @@ export { type Counters, Deformer, type Solution, type SolveOptions, type Step, t
 export { type ErrorCode, PliantError } from "./errors.js";
 export { Handle } from "./handle.js";
 export type { Init } from "./init.js";
-export type { DeformerOptions, EmbeddedGraphOptions } from "./methods/index.js";
+export type { ArapOptions, DeformerOptions, EdgeMaterialOptions, EmbeddedGraphOptions, LiveOptions, MaterialField, MethodName } from "./methods/index.js";
 export { Pliant } from "./pliant.js";
 export type { MeasureOptions, Quality } from "./quality.js";
 export type * from "./script/types.js";

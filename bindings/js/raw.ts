@@ -85,6 +85,17 @@ export interface RawState extends RawObject {
 export interface RawDeformer extends RawObject {
   /** Cuts: scratch.integers holds, for each pair, |a|, a..., |b|, b... (empty: none). */
   buildEmbeddedGraph(shape: RawShape, options: RawEmbeddedGraphOptions, scratch: RawScratch): RawStatus;
+  /** constraintWeight 0: exact handles. */
+  buildArap(shape: RawShape, rims: boolean, constraintWeight: number, smoothness: number): RawStatus;
+  /** Of a deformer built so; likewise setEdgeMaterial and field. */
+  setArap(rims: boolean, constraintWeight: number, smoothness: number): RawStatus;
+  /**
+   * field: "" | "strokes" | "axis" | "max" | "min" | "geodesic". doubles: stretch, lambda (below 0: from stretch), bend,
+   * pStretch, pBend, gravity xyz, axis xyz, the points of all strokes; integers: points of each stroke, or source vertices.
+   */
+  buildEdgeMaterial(shape: RawShape, field: string, scratch: RawScratch): RawStatus;
+  setEdgeMaterial(field: string, scratch: RawScratch): RawStatus;
+  field(): Float64Array; // 3 n
   /** integers: vertex ids. */
   setFixed(scratch: RawScratch): RawStatus;
   /** integers: vertex ids; the new id is in `id` (0 on error). */

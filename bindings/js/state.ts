@@ -1,7 +1,8 @@
 // States: between the named tables of the WASM side and the nested object of the contract.
 //
 // A table "influences/weights" is the field `weights` of the object `influences`; one number, one
-// column and several columns become a number, a flat array and an array of rows. Handles differ in
+// column and several columns become a number, a flat array and an array of rows. The tables of a
+// record ("edges/i", "edges/j", all of one length) become a list of objects. Handles differ in
 // length: "handles/sizes", "handles/vertices" and "handles/targets" become a list of objects.
 
 import { fields, finite, integer, list, type Place, vector } from "./check.js";
@@ -28,6 +29,9 @@ interface Table {
 
 type Nested = Record<string, unknown>;
 
+/** Fields that are lists of objects where they are split into tables. */
+const records: readonly string[] = ["edges"];
+
 export function readTables(raw: RawState): Table[] {
   return Array.from({ length: raw.size() }, (_, i) => ({
     name: raw.name(i), columns: raw.columns(i), integral: raw.integral(i), data: raw.data(i).slice(),
@@ -42,8 +46,26 @@ export function toState(tables: Table[]): State {
     const parent = path.reduce((at, key) => (at[key] ??= {}) as Nested, state);
     parent[last] = toValue(table);
   }
+  for (const name of records) if (isColumns(state[name])) state[name] = toRows(state[name]);
   if (state.handles) state.handles = splitHandles(state.handles as PackedHandles);
   return state as State;
+}
+
+type Columns = Record<string, unknown[]>;
+
+function isColumns(value: unknown): value is Columns {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+
+function toRows(columns: Columns): Nested[] {
+  const names = Object.keys(columns);
+  return columns[names[0]].map((_, row) => Object.fromEntries(names.map((name) => [name, columns[name][row]])));
+}
+
+/** Back from rows with fields of these names. */
+function toColumns(place: Place, value: unknown, names: string[]): Columns {
+  const rows = Array.from(list(place, value), (row, i) => fields(place.item(i), row, names));
+  return Object.fromEntries(names.map((name) => [name, rows.map((row) => row[name])]));
 }
 
 function toValue({ columns, data }: Table): unknown {
@@ -88,6 +110,10 @@ function packHandles(place: Place, value: unknown): PackedHandles {
 export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[]): void {
   const tops = [...new Set(like.map((table) => table.name.split("/")[0]))];
   const given: Nested = { ...fields(place, state, tops, "field of this state") };
+  for (const name of records) {
+    const columns = like.filter((table) => table.name.startsWith(`${name}/`)).map((table) => table.name.slice(name.length + 1));
+    if (columns.length > 0 && given[name] !== undefined) given[name] = toColumns(place.at(name), given[name], columns);
+  }
   if (given.handles !== undefined) given.handles = packHandles(place.at("handles"), given.handles);
   for (const table of like) {
     const value = table.name.split("/").reduce<unknown>((at, key) => (at as Nested | undefined)?.[key], given);
@@ -98,7 +124,7 @@ export function writeTables(core: Core, raw: RawState, place: Place, state: unkn
 }
 
 function readTable(place: Place, value: unknown, { columns, integral }: Table): number[] {
-  const number = (at: Place, item: unknown) => (integral ? integer(at, item, 0, 2 ** 31 - 1) : finite(at, item));
+  const number = (at: Place, item: unknown) => (integral ? integer(at, item, -1, 2 ** 31 - 1) : finite(at, item));
   if (columns === 0) return [number(place, value)];
   const rows = Array.from(list(place, value));
   if (columns === 1) return rows.map((item, i) => number(place.item(i), item));

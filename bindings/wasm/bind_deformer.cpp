@@ -9,6 +9,8 @@
 
 #include "bound_shape.h"
 #include "bound_state.h"
+#include "pliant/deformers/arap/deformer.h"
+#include "pliant/deformers/edge_material/deformer.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
 
 namespace pliant::bindings {
@@ -98,6 +100,51 @@ EmbeddedGraphOptions to_options(const EmbeddedGraphValues& values, const Scratch
   return options;
 }
 
+/// constraint_weight 0: exact handles.
+ArapOptions to_options(bool rims, double constraint_weight, double smoothness) {
+  ArapOptions options;
+  options.energy = rims ? ArapEnergy::spokes_and_rims : ArapEnergy::spokes;
+  if (constraint_weight > 0.0) options.constraint_weight = constraint_weight;
+  options.smoothness = smoothness;
+  return options;
+}
+
+/// integers: points of each stroke, or source vertices; coordinates: of all strokes.
+DirectionField to_field(const std::string& kind, const std::vector<std::int32_t>& integers,
+                        std::span<const double> coordinates) {
+  using Kind = DirectionField::Kind;
+  DirectionField field;
+  if (kind == "axis") field.kind = Kind::axis;
+  if (kind == "max") field.kind = Kind::curvature_max;
+  if (kind == "min") field.kind = Kind::curvature_min;
+  if (kind == "geodesic") {
+    field.kind = Kind::geodesic;
+    field.sources = integers;
+  }
+  if (kind != "strokes") return field;
+  field.kind = Kind::strokes;
+  for (std::size_t from = 0; const std::int32_t count : integers) {
+    field.strokes.emplace_back(Eigen::Map<const Points>(&coordinates[from], 3, count));
+    from += 3 * count;
+  }
+  return field;
+}
+
+/// stretch, lambda (below 0: from stretch), bend, pStretch, pBend, gravity xyz, axis xyz, strokes.
+EdgeMaterialOptions to_options(const std::string& field, const Scratch& scratch) {
+  const std::vector<double>& v = scratch.doubles();
+  EdgeMaterialOptions options;
+  options.stretch = v[0];
+  if (v[1] >= 0.0) options.lambda = v[1];
+  options.bend = v[2];
+  options.p_stretch = v[3];
+  options.p_bend = v[4];
+  options.gravity = {v[5], v[6], v[7]};
+  options.field = to_field(field, scratch.integers(), std::span(v).subspan(11));
+  options.field.axis = {v[8], v[9], v[10]};
+  return options;
+}
+
 /// scale, center xyz, axis xyz, angle, about xyz, translation xyz.
 Motion to_motion(const std::vector<double>& v) {
   Motion motion;
@@ -116,11 +163,25 @@ class BoundDeformer {
  public:
   StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values,
                                    const Scratch& scratch) {
-    auto built = EmbeddedGraph::create(shape.get(), to_options(values, scratch));
-    if (!built.ok()) return to_value(built.status());
-    refinable_ = built->get();
-    deformer_ = std::move(*built);
-    return to_value(Status());
+    return take(EmbeddedGraph::create(shape.get(), to_options(values, scratch)));
+  }
+  StatusValue build_arap(const BoundShape& shape, bool rims, double constraint_weight,
+                         double smoothness) {
+    return take(Arap::create(shape.get(), to_options(rims, constraint_weight, smoothness)));
+  }
+  StatusValue set_arap(bool rims, double constraint_weight, double smoothness) {
+    return to_value(as<Arap>().set_options(to_options(rims, constraint_weight, smoothness)));
+  }
+  StatusValue build_edge_material(const BoundShape& shape, const std::string& field,
+                                  const Scratch& scratch) {
+    return take(EdgeMaterial::create(shape.get(), to_options(field, scratch)));
+  }
+  StatusValue set_edge_material(const std::string& field, const Scratch& scratch) {
+    return to_value(as<EdgeMaterial>().set_options(to_options(field, scratch)));
+  }
+  val field() {
+    doubles_ = as<EdgeMaterial>().field();
+    return view_of_matrix(doubles_);
   }
 
   StatusValue set_fixed(const Scratch& scratch) {
@@ -172,7 +233,7 @@ class BoundDeformer {
   }
 
   CountValue refine(Index max_nodes) {
-    const auto added = refinable_->refine(max_nodes);
+    const auto added = as<EmbeddedGraph>().refine(max_nodes);
     return {to_value(added.status()), added.ok() ? *added : 0};
   }
   void reset() { deformer_->reset(); }
@@ -180,8 +241,18 @@ class BoundDeformer {
   StatusValue restore(const BoundState& bound) { return to_value(deformer_->restore(bound.state)); }
 
  private:
+  template <class Method>
+  StatusValue take(Result<std::unique_ptr<Method>> built) {
+    if (built.ok()) deformer_ = std::move(*built);
+    return to_value(built.status());
+  }
+  /// Calls of one method come from bindings/js, which knows what it has built.
+  template <class Method>
+  Method& as() {
+    return static_cast<Method&>(*deformer_);
+  }
+
   std::unique_ptr<Deformer> deformer_;
-  EmbeddedGraph* refinable_ = nullptr;  ///< deformer_, where its method refines
   Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
   Points doubles_;
 };
@@ -226,6 +297,11 @@ EMSCRIPTEN_BINDINGS(pliant_deformer) {
   emscripten::class_<BoundDeformer>("Deformer")
       .constructor<>()
       .function("buildEmbeddedGraph", &BoundDeformer::build_embedded_graph)
+      .function("buildArap", &BoundDeformer::build_arap)
+      .function("setArap", &BoundDeformer::set_arap)
+      .function("buildEdgeMaterial", &BoundDeformer::build_edge_material)
+      .function("setEdgeMaterial", &BoundDeformer::set_edge_material)
+      .function("field", &BoundDeformer::field)
       .function("setFixed", &BoundDeformer::set_fixed)
       .function("addHandle", &BoundDeformer::add_handle)
       .function("removeHandle", &BoundDeformer::remove_handle)

@@ -238,6 +238,8 @@ describe("pliant refuses", () => {
     folder.write("cut.json", '{ "format": ');
     folder.write("typo.json", { ...edit, steps: [{ ...step, handles: [step.handles[0], { mvoe: 1 }] }] });
     folder.write("nothing.json", { ...edit, steps: [{ ...step, handles: [{ select: half([1, 0, 0], 99) }] }] });
+    folder.write("surface.json", { ...edit, steps: [step, { ...step, method: "arap", options: {} }] });
+    folder.write("unasked.json", { ...edit, steps: [{ method: "edge-material", options: { gravity: [0, 0, 0] } }] });
     mkdirSync(join(folder.path, "folder.obj"));
   });
 
@@ -272,6 +274,8 @@ describe("pliant refuses", () => {
     ["a report that cannot be written", ["deform", "bar.obj", ...good, "--report", "gone/report.json"], "gone/report.json"],
     ["a carried file that is not there", ["deform", "bar.obj", ...good, "--carry", "gone.obj", "--carry-out", "never2.obj"], "gone.obj", "no such file"],
     ["a broken carried file", ["deform", "bar.obj", ...good, "--carry", "broken.obj", "--carry-out", "never2.obj"], "broken.obj", "line 2"],
+    ["a method that carries nothing", ["deform", "bar.obj", "--script", "surface.json", "--out", "never.obj", "--carry", "bar.obj", "--carry-out", "never2.obj"], "surface.json", "steps[1].method", "arap", "--carry"],
+    ["a method for surfaces over points", ["deform", "points.xyz", "--script", "unasked.json", "--out", "never.obj"], "unasked.json", "steps[0]", "or a load"],
     ["faces where there are none to write", ["deform", "points.xyz", "--script", "any.json", "--out", "never.stl"], "never.stl"],
     ["a comparison of different vertices", ["compare", "bar.obj", "points.xyz"], "points.xyz", "300 vertices", "100"],
   ])("%s", (_, args, ...says) => {

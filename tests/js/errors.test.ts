@@ -18,6 +18,8 @@ type Row = [what: string, action: () => unknown, code: string, ...says: string[]
 /** Calls with arguments that the types refuse too. */
 const make = (input: unknown) => () => pliant.shape(input as never);
 const build = (more: object) => () => pliant.deformer(shape, { ...options, ...more } as never);
+const surface = (options: object) => () => pliant.deformer(shape, { method: "arap", ...options } as never);
+const material = (options: object) => () => pliant.deformer(shape, { method: "edge-material", ...options } as never);
 const move = (transform: unknown) => () => hand.move(transform as never);
 const fix = (vertices: unknown) => () => deformer.setFixed(vertices as never);
 const grab = (vertices: unknown) => () => deformer.addHandle(vertices as never);
@@ -54,9 +56,37 @@ const deformers: Row[] = [
   ["no options", () => pliant.deformer(shape, undefined as never), "invalid-option", "options"],
   ["no method", () => pliant.deformer(shape, {} as never), "invalid-option", "options.method", "undefined", "embedded-graph"],
   ["an unknown method", build({ method: "magic" }), "invalid-option", "options.method", '"magic"'],
-  ...["volumetric-graph", "rigid-cells", "edge-material", "arap"].map((method): Row =>
+  ...["volumetric-graph", "rigid-cells"].map((method): Row =>
     [`${method}, which is not here yet`, build({ method }), "invalid-option", method, "not in this build yet"]),
   ["sketch as a solver", build({ method: "sketch" }), "invalid-option", "options.method", "pliant.sketch"],
+  ["an option of another method", material({ energy: "spokes" }), "invalid-option", "options.energy", "option of edge-material", "pStretch"],
+  ["an energy that is none", surface({ energy: "membrane" }), "invalid-option", "options.energy", '"membrane"', '"spokes" or "spokes-and-rims"'],
+  ["a constraintWeight of zero for arap", surface({ constraintWeight: 0 }), "invalid-option", "options.constraintWeight", "0", "above 0"],
+  ["more smoothness than there is", surface({ smoothness: 1.1 }), "invalid-option", "options.smoothness", "1.1", "from 0 to 1"],
+  ...["stretch", "lambda", "bend"].map((name): Row =>
+    [`a ${name} below zero`, material({ [name]: -1 }), "invalid-option", `options.${name}`, "-1", "0 or above"]),
+  ...["pStretch", "pBend"].flatMap((name): Row[] => [
+    [`a ${name} above 1`, material({ [name]: 2 }), "invalid-option", `options.${name}`, "2", "from 0 to 1"],
+    [`a ${name} that is not a number`, material({ [name]: NaN }), "invalid-option", `options.${name}`, "NaN"],
+  ]),
+  ["stretch and lambda", material({ stretch: 1, lambda: 1 }), "invalid-option", "options", "stretch and lambda"],
+  ["a material without stiffness", material({ stretch: 0, bend: 0 }), "invalid-option", "options", "bend and stretch of 0"],
+  ["gravity in the plane", material({ gravity: [0, -1] }), "invalid-option", "options.gravity", "length 2", "3 finite numbers"],
+  ["gravity nowhere", material({ gravity: [0, 0, NaN] }), "invalid-option", "options.gravity[2]", "NaN"],
+  ["a field that is none", material({ field: "axis" }), "invalid-option", "options.field", '"axis"', "object"],
+  ["a field of nothing", material({ field: {} }), "invalid-option", "options.field", "0 keys", "strokes, axis, curvature, geodesic"],
+  ["a field of two kinds", material({ field: { axis: [1, 0, 0], curvature: "max" } }), "invalid-option", "options.field", "2 keys"],
+  ["an unknown field", material({ field: { swirl: 1 } }), "invalid-option", "options.field.swirl", "strokes"],
+  ["an axis that points nowhere", material({ field: { axis: [0, 0, 0] } }), "invalid-option", "options.field.axis", "zero vector"],
+  ["an unknown curvature", material({ field: { curvature: "mean" } }), "invalid-option", "options.field.curvature", '"mean"', '"max" or "min"'],
+  ["no strokes", material({ field: { strokes: [] } }), "invalid-option", "options.field.strokes", "empty"],
+  ["a stroke of one point", material({ field: { strokes: [[[0, 0, 0]]] } }), "invalid-option", "options.field.strokes[0]", "length 1", "at least 2 points"],
+  ["a stroke to nowhere", material({ field: { strokes: [[[0, 0, 0], [0, NaN, 0]]] } }), "invalid-option", "options.field.strokes[0][1][1]", "NaN"],
+  ["a stroke without length", material({ field: { strokes: [[[0, 0, 0], [0, 0, 0]]] } }), "invalid-option", "field.strokes[0]", "no length"],
+  ["paths from no vertex", material({ field: { geodesic: [] } }), "invalid-option", "options.field.geodesic", "empty"],
+  ["paths from a vertex that is not there", material({ field: { geodesic: [121] } }), "invalid-option", "options.field.geodesic[0]", "121", "from 0 to 120"],
+  ["paths from an empty region", material({ field: { geodesic: { sphere: { center: [9, 9, 9], radius: 1 } } } }), "invalid-option", "options.field.geodesic", "no vertex"],
+  ["points for a surface", () => pliant.deformer(pliant.shape({ positions: triangle }), { method: "arap" }), "invalid-shape", "no triangles", "arap"],
   ["an unknown option", build({ nodecount: 3 }), "invalid-option", "options.nodecount", "option of embedded-graph", "nodeCount"],
   ["no nodes at all", build({ nodeCount: 0 }), "invalid-option", "options.nodeCount", "0", "from 1 to 121"],
   ["more nodes than vertices", build({ nodeCount: 122 }), "invalid-option", "options.nodeCount", "122", "from 1 to 121"],

@@ -3,6 +3,7 @@
 import { open, readFile } from "node:fs/promises";
 import type { Core } from "../core.js";
 import { PliantError } from "../errors.js";
+import { readMethod } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
 import { readScript, type ScriptPlan } from "../script/read.js";
 import { type FinishedEdit, reportOf, runFrames } from "../script/run.js";
@@ -26,6 +27,7 @@ export async function deform(pliant: Pliant, core: Core, invocation: Invocation,
   const file = await readShape(shapePath);
   const shape = await onFile(shapePath, () => pliant.shape({ positions: file.mesh.positions, triangles: file.mesh.triangles }));
   const plan = await readPlan(files.script!, shape);
+  if (files.carry) checkCarries(files.script!, plan);
   const frames = new Frames(file, files.out!, format, plan, outputs);
   const progress = new Progress(flags.quiet === true);
   try {
@@ -51,6 +53,15 @@ function checkCarry(from: string | undefined, to: string | undefined): void {
   if (from === undefined || to === undefined) return;
   const format = formatOf(from, streamable);
   if (formatOf(to, streamable) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+}
+
+/** What moves a surface only has no other points to carry. */
+function checkCarries(path: string, { keyframes: [{ steps }] }: ScriptPlan): void {
+  for (const step of steps) {
+    const { method = "sketch" } = ("sketch" in step ? step.finish?.options : step.options) ?? {};
+    if (method !== "sketch" && readMethod(step.place, method).carries) continue;
+    throw new Failure(`${path}: ${step.place.at("method").path} is "${method}", which moves the surface and not the space around it; --carry expects a method that deforms space`);
+  }
 }
 
 async function readPlan(path: string, shape: Shape): Promise<ScriptPlan> {

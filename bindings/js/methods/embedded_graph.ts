@@ -75,6 +75,7 @@ export const embeddedGraph: Method = {
     seed: readSeed,
   },
   live: [],
+  carries: true,
 
   check(place, options) {
     const { nodes, nodeCount, sampling, neighbours } = options as Read;

@@ -1,20 +1,38 @@
 // The methods of the contract, and those this build has.
 
 import { type Place } from "../check.js";
+import { arap, type ArapOptions } from "./arap.js";
+import { edgeMaterial, type EdgeMaterialOptions, type MaterialField } from "./edge_material.js";
 import { embeddedGraph, type EmbeddedGraphOptions } from "./embedded_graph.js";
 import type { Method } from "./method.js";
 
-export type { EmbeddedGraphOptions };
-export { type Method, type Options, readOptions } from "./method.js";
+export type { ArapOptions, EdgeMaterialOptions, EmbeddedGraphOptions, MaterialField };
+export { type Method, type Options, readLive, readOptions } from "./method.js";
 export { readSeed } from "./embedded_graph.js";
 
-/** What `pliant.deformer` takes beside the shape. */
-export type DeformerOptions = EmbeddedGraphOptions;
+/** The options of every method. */
+export interface MethodOptions {
+  "embedded-graph": EmbeddedGraphOptions;
+  "edge-material": EdgeMaterialOptions;
+  arap: ArapOptions;
+}
 
-const methods: readonly Method[] = [embeddedGraph];
+export type MethodName = keyof MethodOptions;
+
+/** What `pliant.deformer` takes beside the shape. */
+export type DeformerOptions<M extends MethodName = MethodName> = MethodOptions[M];
+
+/** Options that may change while a deformer lives; `embedded-graph` has none. */
+export interface LiveOptions {
+  "embedded-graph": Record<string, never>;
+  "edge-material": Omit<EdgeMaterialOptions, "method">;
+  arap: Omit<ArapOptions, "method">;
+}
+
+const methods: readonly Method[] = [embeddedGraph, edgeMaterial, arap];
 
 /** Names of methods that are agreed on but not here. */
-const absent = ["volumetric-graph", "rigid-cells", "edge-material", "arap"];
+const absent = ["volumetric-graph", "rigid-cells"];
 
 export function readMethod(place: Place, name: unknown): Method {
   const method = methods.find((candidate) => candidate.name === name);

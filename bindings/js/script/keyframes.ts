@@ -19,7 +19,7 @@ function sameStep(place: Place, a: Json, b: Json): void {
   if (b.method === "sketch") return sameSketch(place, a, b);
   if (b.drag !== undefined) place.at("drag").reject("is given in a keyframe; expected a drag only in steps");
   for (const key of ["method", "options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
-  const [mine, theirs] = [a.handles as Json[], b.handles as Json[]];
+  const [mine, theirs] = [a.handles ?? [], b.handles ?? []] as Json[][];
   if (mine.length !== theirs.length) place.at("handles").reject(`has ${theirs.length} handles; expected ${mine.length} as in the first keyframe`);
   theirs.forEach((handle, i) => {
     const here = place.at("handles").item(i);

@@ -1,7 +1,7 @@
 // Reads an edit script: every key and value is checked, and an error names its place in the script.
 
 import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../check.js";
-import { type DeformerOptions, type Method, readMethod, readOptions, readSeed } from "../methods/index.js";
+import { type DeformerOptions, type LiveOptions, type Method, type Options, readLive, readMethod, readOptions, readSeed } from "../methods/index.js";
 import { type Extent, readSelection, type Select } from "../selection.js";
 import { readTransform, type Transform } from "../transform.js";
 import { sameExceptGoals } from "./keyframes.js";
@@ -21,6 +21,8 @@ export interface HandlePlan {
 export interface DragPlan {
   /** By the position of the handle in the step. */
   goals: { handle: number; goal: Goal }[];
+  /** Checked, and read again by the deformer. */
+  options: LiveOptions[keyof LiveOptions];
   iterations: number;
 }
 
@@ -97,27 +99,36 @@ function readStep(place: Place, value: unknown, { extent, seed }: Context): Step
   if ((value as Fields).method === "sketch") return readSketchStep(place, value, extent, seed);
   const method = readMethod(place.at("method"), (value as Fields).method);
   const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
-  readOptions(place.at("options"), step.options ?? {}, method, extent);
-  const handles = readHandles(place, step.handles, extent);
+  const options = step.options ?? {};
+  readOptions(place.at("options"), options, method, extent);
+  const handles = readHandles(place.at("handles"), step.handles ?? [], extent);
+  const drag = Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
+    readDrag(place.at("drag").item(i), item, method, handles, extent));
+  const loaded = [options, ...drag.map((entry) => entry.options)].some((given) => method.load?.(given as Options));
+  if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
   return {
     place,
-    options: { ...(seed !== undefined && "seed" in method.options ? { seed } : {}), ...(step.options as object), method: method.name } as DeformerOptions,
+    options: { ...(seed !== undefined && "seed" in method.options ? { seed } : {}), ...options, method: method.name } as DeformerOptions,
     fixed: Array.from(list(place.at("fixed"), step.fixed ?? [], "selections"), (item, i) => ({
       place: place.at("fixed").item(i),
       select: readSelection(place.at("fixed").item(i), item, extent),
     })),
     handles,
     ...readSolve(place.at("solve"), step.solve),
-    drag: Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
-      readDrag(place.at("drag").item(i), item, method, handles, extent)),
+    drag,
   };
 }
 
-function readHandles(step: Place, value: unknown, extent: Extent): HandlePlan[] {
-  const place = step.at("handles");
-  if (value === undefined) step.reject("has no handles and asks for nothing; expected at least one handle");
+function asksForNothing(step: Place, handles: unknown, { load }: Method): never {
+  const expected = `at least one handle${load ? " or a load" : ""}`;
+  return handles === undefined
+    ? step.reject(`has no handles and asks for nothing; expected ${expected}`)
+    : step.at("handles").reject(`is empty and asks for nothing; expected ${expected}`);
+}
+
+function readHandles(place: Place, value: unknown, extent: Extent): HandlePlan[] {
   const names = new Set<string>();
-  return Array.from(filled(place, value, "at least one handle"), (item, i) => {
+  return Array.from(list(place, value, "handles"), (item, i) => {
     const here = place.item(i);
     const handle = fields(here, item, ["name", "select", "move", "targets"]);
     const name = handle.name === undefined ? undefined : readName(here.at("name"), handle.name);
@@ -141,7 +152,8 @@ function readGoal(place: Place, { move, targets }: Fields, { dimension }: Extent
 
 function readDrag(place: Place, value: unknown, method: Method, handles: HandlePlan[], extent: Extent): DragPlan {
   const drag = fields(place, value, ["handles", "options", "iterations"]);
-  fields(place.at("options"), drag.options ?? {}, method.live, `option of ${method.name} that may change during a drag`);
+  const options = (drag.options ?? {}) as DragPlan["options"];
+  readLive(place.at("options"), options, method, extent);
   const seen = new Set<number>();
   const goals = Array.from(list(place.at("handles"), drag.handles ?? []), (item, i) => {
     const here = place.at("handles").item(i);
@@ -154,5 +166,5 @@ function readDrag(place: Place, value: unknown, method: Method, handles: HandleP
     return { handle, goal: readGoal(here, entry, extent) ?? here.reject("has neither move nor targets; expected one of them") };
   });
   const { iterations = 1 } = drag;
-  return { goals, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };
+  return { goals, options, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };
 }

@@ -150,6 +150,7 @@ class Run {
 
   async #drag(deformer: Deformer, handles: Handle[], plan: SolverPlan, entry: DragPlan, onStep: OnStep) {
     const before = deformer.counters();
+    deformer.setOptions(entry.options);
     for (const { handle, goal } of entry.goals) reach(handles[handle], goal, this.shape.dimension);
     const { iterations } = await this.#solve(deformer, plan, entry.iterations, onStep);
     const after = deformer.counters();

@@ -1,7 +1,7 @@
 // The edit script as callers write it, and what comes of it (contract, section 3).
 
 import type { FloatArray } from "../check.js";
-import type { EmbeddedGraphOptions } from "../methods/index.js";
+import type { LiveOptions, MethodName, MethodOptions } from "../methods/index.js";
 import type { Quality } from "../quality.js";
 import type { Selection } from "../selection.js";
 import type { ShapeReport } from "../shape.js";
@@ -22,15 +22,23 @@ export interface EditScript {
   seed?: number;
 }
 
-export interface ScriptStep {
-  method: EmbeddedGraphOptions["method"];
-  options?: Omit<EmbeddedGraphOptions, "method">;
+/** A method with a solver, and its options. */
+export type ScriptMethod<M extends MethodName = MethodName> = { [N in M]: { method: N; options?: Omit<MethodOptions[N], "method"> } }[M];
+
+export type ScriptStep = {
+  [M in MethodName]: ScriptMethod<M> & SolverStep & {
+    /** What happened under one grab, in order, after the first solve. */
+    drag?: readonly (ScriptDrag & { options?: LiveOptions[M] })[];
+  };
+}[MethodName];
+
+/** What the steps of all methods with a solver have. */
+export interface SolverStep {
   fixed?: readonly Selection[];
-  handles: readonly ScriptHandle[];
+  /** May be left out where the options are a load: gravity. */
+  handles?: readonly ScriptHandle[];
   /** iterations: 100 in all. tolerance: 1e-6. */
   solve?: { iterations?: number; tolerance?: number };
-  /** What happened under one grab, in order, after the first solve. */
-  drag?: readonly ScriptDrag[];
 }
 
 /** One limb, chosen by a stroke and posed by at least one of bend, twist, scale and turning, which add up. */
@@ -56,12 +64,7 @@ export interface ScriptSketch {
   /** Adds vertices, which follow those before, where the limb is stretched and bent: not in keyframes, not with finish. maxAdded: 1,000,000. */
   refine?: boolean | { maxAdded?: number };
   /** A solver goes on from the pose: the static part is fixed, rigid parts and region vertices `spacing` diagonals apart (0.05) are its handle. */
-  finish?: {
-    method: EmbeddedGraphOptions["method"];
-    options?: Omit<EmbeddedGraphOptions, "method">;
-    spacing?: number;
-    solve?: { iterations?: number; tolerance?: number };
-  };
+  finish?: ScriptMethod & { spacing?: number; solve?: { iterations?: number; tolerance?: number } };
 }
 
 /** Where a handle goes; targets one a vertex, ascending vertex id. */
@@ -78,8 +81,6 @@ export interface ScriptHandle extends ScriptGoal {
 
 export interface ScriptDrag {
   handles?: readonly (ScriptGoal & { name: string })[];
-  /** Those that may change during a drag. */
-  options?: object;
   /** 1. */
   iterations?: number;
 }

@@ -16,8 +16,8 @@ const init = makeInit(() => Promise.reject(new Error("none was named")));
 const methods = new Map<Function, readonly string[]>([
   [Pliant, ["shape", "deformer", "sketch", "measure", "edit"]],
   [Shape, ["select", "dispose"]],
-  [Deformer, ["setFixed", "addHandle", "step", "solve", "energy", "counters", "positions", "normals",
-    "transformPoints", "state", "restore", "reset", "dispose"]],
+  [Deformer, ["setFixed", "addHandle", "setOptions", "step", "solve", "energy", "counters", "positions", "normals",
+    "field", "transformPoints", "state", "restore", "reset", "dispose"]],
   [Handle, ["move", "moveTo", "remove"]],
   [Sketch, ["redraw", "bend", "unbend", "twist", "scale", "turning", "twistSpeed", "setSmooth", "morph", "pose", "setPose", "reset",
     "refine", "unrefine", "labels", "parameters", "reference", "target", "positions", "restPositions", "normals", "seed", "state", "dispose"]],

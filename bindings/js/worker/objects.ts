@@ -2,7 +2,7 @@
 
 import { coordinates, type FloatArray, output, Place, vertexIds } from "../check.js";
 import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deformer.js";
-import type { DeformerOptions } from "../methods/index.js";
+import type { DeformerOptions, LiveOptions, MethodName } from "../methods/index.js";
 import type { MeasureOptions, Quality } from "../quality.js";
 import type { EditOptions, EditResult, EditScript } from "../script/types.js";
 import type { Selection } from "../selection.js";
@@ -22,7 +22,7 @@ export class WorkerPliant extends Remote {
     return new WorkerShape(this.line, await this.call<Reference>("shape", input));
   }
 
-  async deformer(shape: WorkerShape, options: DeformerOptions): Promise<WorkerDeformer> {
+  async deformer<M extends MethodName>(shape: WorkerShape, options: { method: M } & DeformerOptions<M>): Promise<WorkerDeformer<M>> {
     return new WorkerDeformer(this.line, await this.call<Reference>("deformer", shape, options), shape);
   }
 
@@ -73,15 +73,15 @@ export class WorkerShape extends Remote {
 }
 
 /** See {@link Deformer}. */
-export class WorkerDeformer extends Remote {
+export class WorkerDeformer<M extends MethodName = MethodName> extends Remote {
   readonly shape: WorkerShape;
-  readonly method: string;
+  readonly method: M;
 
   /** @internal */
   constructor(line: Line, reference: Reference, shape: WorkerShape) {
     super(line, reference);
     this.shape = shape;
-    this.method = reference.method!;
+    this.method = reference.method as M;
   }
 
   async setFixed(vertices: Iterable<number>): Promise<void> {
@@ -91,6 +91,10 @@ export class WorkerDeformer extends Remote {
   async addHandle(vertices: Iterable<number>): Promise<WorkerHandle> {
     const ids = this.#ids("vertices", vertices);
     return new WorkerHandle(this.line, await this.call<Reference>("addHandle", ids), ids);
+  }
+
+  setOptions(options: LiveOptions[M]): Promise<void> {
+    return this.call("setOptions", options);
   }
 
   step(options: StepOptions = {}): Promise<Step> {
@@ -119,6 +123,10 @@ export class WorkerDeformer extends Remote {
   normals<T extends FloatArray>(out: T): Promise<T>;
   normals(out?: FloatArray): Promise<FloatArray> {
     return this.#into(out, this.shape.report.vertices * 3, "normals");
+  }
+
+  field(): Promise<Float32Array> {
+    return this.call("field");
   }
 
   transformPoints(points: Float32Array): Promise<Float32Array>;

@@ -83,7 +83,8 @@ Energy EdgeMaterial::energy() const {
   return {total,
           {{"stretch", model.stretch(), w.lambda * w.p_stretch},
            {"bend", model.bend(), w.mu * w.p_bend},
-           {"gravity", model.gravity(), 1.0}}};
+           {"gravity", model.gravity(), 1.0},
+           {"constraint", 0.0, 1.0}}};  // E is taken with handles at their targets
 }
 
 State EdgeMaterial::save() const {
@@ -116,7 +117,7 @@ State EdgeMaterial::save() const {
   add_scalar("weights/mu", w.mu);
   add_scalar("weights/pStretch", w.p_stretch);
   add_scalar("weights/pBend", w.p_bend);
-  state.add("weights/gravity", 3, false).data = {w.pull.x(), w.pull.y(), w.pull.z()};
+  state.add("weights/gravity", 1, false).data = {w.pull.x(), w.pull.y(), w.pull.z()};
   save_result(state);
   return state;
 }

@@ -29,7 +29,8 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   /// The field in use, 3 x n, unit or zero, one vector an input vertex: for drawing it.
   Points field() const;
 
-  /// Terms: `stretch` (weight lambda p_stretch), `bend` (weight mu p_bend), `gravity`.
+  /// Terms: `stretch` (weight lambda p_stretch), `bend` (weight mu p_bend), `gravity`, and
+  /// `constraint`, which is 0: handles are exact.
   Energy energy() const override;
   /// edges/i, j, l, m (-1: no bending term), alpha, beta, rho, sigma, kappa; weights/lambda,
   /// weights/mu, weights/pStretch, weights/pBend, weights/gravity; result; handles.
