@@ -23,9 +23,9 @@ const entries = {
 
 /** Bytes. `file`: with all it imports; `raw`: as it is; `gzip`: on the wire. */
 const budget = [
-  { file: "pliant.wasm", raw: 500e3, gzip: 212e3 },
+  { file: "pliant.wasm", raw: 610e3, gzip: 253e3 },
   { file: "pliant.js", gzip: 23e3 },
-  { file: "inline.js", gzip: 240e3 },
+  { file: "inline.js", gzip: 281e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */
