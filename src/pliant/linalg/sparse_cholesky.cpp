@@ -96,7 +96,7 @@ Adjacency column_structure(const Adjacency& adjacency, const std::vector<Index>&
 /// fronts cost more in overhead than in arithmetic.
 bool worth_merging(double width, double zeros, double total) {
   const double share = zeros / total;
-  return width <= 4 || (width <= 16 && share < 0.4) || (width <= 48 && share < 0.15) ||
+  return width <= 1 || (width <= 4 && share < 0.4) || (width <= 16 && share < 0.15) ||
          share < 0.05;
 }
 
