@@ -43,15 +43,30 @@ export interface Refinement {
   triangleParents: Uint32Array;
 }
 
-/** What `sketch.state()` gives: plain data; fields as in the contract. */
+/**
+ * What `sketch.state()` gives: plain data; fields as in the contract. A bend takes a vertex v to T(s) + R (v - C(s)): C
+ * and T are the reference and the target at s, linear between nodes of equal steps, R turns by its angle about the normal.
+ */
 export interface SketchState {
   /** 0 static, 1 region, 2 and above rigid parts; one a vertex of the input. */
   labels: number[];
   s: number[];
-  /** Radians, right-handed about `normals` (where nothing bends: about the joints). */
+  /** Radians, right-handed about `normals`; where nothing bends, those of the twist. */
   angles: number[];
+  /** Nodes of the curves; with a mirror those of the mirrored side follow. */
   reference: number[][];
   target: number[][];
+  /** Of the planes of the curves, one a side. */
+  normals: number[][];
+  /** With a mirror: 0 for a vertex of the drawn side, 1 for one of the mirrored. */
+  sides?: number[];
+  /** With twist or scale: middles of the sections, nodes of a curve as `reference`; angles about it and factors of the vertices, applied before the bend. */
+  joints?: number[][];
+  twists?: number[];
+  scales?: number[];
+  /** After refinement: where the added vertices are at rest, and the two that each lies between. */
+  rest?: number[][];
+  parents?: number[][];
   [field: string]: unknown;
 }
 
