@@ -30,7 +30,7 @@ interface Table {
 type Nested = Record<string, unknown>;
 
 /** Fields that are lists of objects where they are split into tables. */
-const records: readonly string[] = ["edges"];
+const records: readonly string[] = ["edges", "folded"];
 
 export function readTables(raw: RawState): Table[] {
   return Array.from({ length: raw.size() }, (_, i) => ({

@@ -178,6 +178,35 @@ describe("edge-material", () => {
     expect(dragged.state.result[0][2]).toBeLessThan(mesh.positions[2] - 0.1);
   });
 
+  it("remembers the normal of an edge that is folded flat, also in its state", async () => {
+    const leaf = { positions: Float64Array.of(0, 0, 0, 0, 1, 0, 1, 0.5, 0, -1, 0.5, 0.6), triangles: Uint32Array.of(0, 2, 1, 0, 1, 3) };
+    const book = pliant.shape(leaf);
+    const held = () => {
+      const deformer = pliant.deformer(book, { method: "edge-material" });
+      return { deformer, page: deformer.addHandle([0, 1, 2]), flap: deformer.addHandle([3]) };
+    };
+    const { deformer, page, flap } = held();
+    const rotate = { axis: [0, 0, 1], degrees: 90, about: [0, 0, 0] };
+    for (const handle of [page, flap]) handle.move({ rotate });
+    await deformer.solve();
+    expect(deformer.state().folded).toEqual([]);
+    flap.moveTo([-0.5, 1, 0.01]); // onto the other leaf
+    await deformer.solve();
+    const state = JSON.parse(JSON.stringify(deformer.state())) as EdgeMaterialState;
+    const [{ edge, normal }] = state.folded;
+    expect(state.edges[edge].l).toBeGreaterThanOrEqual(0);
+    expect(Math.hypot(...normal)).toBeCloseTo(1, 12);
+    const energy = deformer.energy();
+    expect(energy.terms.bend / evaluateEdgeMaterial(state, leaf).bend).toBeCloseTo(1, 9);
+    const other = held().deformer;
+    other.restore(state as never);
+    expect(other.energy()).toEqual(energy);
+    expect(other.state()).toEqual(deformer.state());
+    for (const wrong of [{ edge: 9, normal }, { edge }]) {
+      expect((await errorOf(() => other.restore({ ...state, folded: [wrong] } as never))).message).toContain("folded");
+    }
+  });
+
   it.each([
     ["an axis", { axis: [1, 1, 0] }], ["curvature", { curvature: "max" }], ["paths from a vertex", { geodesic: [0] }],
     ["paths from a region", { geodesic: left }], ["strokes", { strokes: [[[0, 0, 0], [0.3, 0.2, 0], [1, 1, 0]], [[1, 0, 0], [1, 0.2, 0]]] }],

@@ -19,6 +19,8 @@ export interface ArapState extends SurfaceState {
 export interface EdgeMaterialState extends SurfaceState {
   edges: { i: number; j: number; l: number; m: number; alpha: number; beta: number; rho: number; sigma: number; kappa: number }[];
   weights: { lambda: number; mu: number; pStretch: number; pBend: number; gravity: number[] };
+  /** Edges whose triangles cancel: their normals from before. */
+  folded: { edge: number; normal: number[] }[];
 }
 
 const minus = (a: Vector, b: Vector) => a.map((x, i) => x - b[i]);
@@ -105,9 +107,10 @@ const across = ({ i, j, l, m, alpha, beta }: Hinge, points: Vector[]) =>
   points[i].map((x, k) => alpha * x + (1 - alpha) * points[j][k] - beta * points[l][k] - (1 - beta) * points[m][k]);
 
 /** Eq. 5-9, each term without its weight, and their weighted sum. */
-export function evaluateEdgeMaterial({ edges, weights, result }: EdgeMaterialState, mesh: Mesh) {
+export function evaluateEdgeMaterial({ edges, weights, folded, result }: EdgeMaterialState, mesh: Mesh) {
   const rest = restOf(mesh);
   const normals = edgeNormals(mesh, result);
+  for (const { edge, normal } of folded) normals.set(key(edges[edge].i, edges[edge].j), normal);
   let [stretch, bend] = [0, 0];
   for (const edge of edges) {
     const { i, j, l, rho, sigma, kappa } = edge;

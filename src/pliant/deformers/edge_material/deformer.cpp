@@ -1,5 +1,6 @@
 #include "pliant/deformers/edge_material/deformer.h"
 
+#include <string>
 #include <utility>
 
 #include "pliant/deformers/edge_material/field.h"
@@ -118,8 +119,38 @@ State EdgeMaterial::save() const {
   add_scalar("weights/pStretch", w.p_stretch);
   add_scalar("weights/pBend", w.p_bend);
   state.add("weights/gravity", 1, false).data = {w.pull.x(), w.pull.y(), w.pull.z()};
+  const std::vector<Index> folded = impl_->model.folded(point_positions());
+  state.add("folded/edge", 1, true).data.assign(folded.begin(), folded.end());
+  StateTable& normals = state.add("folded/normal", 3, false);
+  for (Index element : folded) {
+    const Eigen::Vector3d normal = impl_->model.normal(element);
+    normals.data.insert(normals.data.end(), normal.begin(), normal.end());
+  }
   save_result(state);
   return state;
+}
+
+Status EdgeMaterial::restore(const State& state) {
+  const StateTable* edges = state.find("folded/edge");
+  const StateTable* normals = state.find("folded/normal");
+  const std::vector<double> none;
+  const std::vector<double>& folded = edges != nullptr ? edges->data : none;
+  if (3 * folded.size() != (normals != nullptr ? normals->data.size() : 0)) {
+    return {ErrorCode::invalid_option,
+            "folded of the state has edges and normals of different numbers; expected as many"};
+  }
+  const double count = static_cast<double>(impl_->model.elements().size());
+  for (double edge : folded) {
+    if (edge >= 0.0 && edge < count) continue;
+    return {ErrorCode::invalid_option, "folded of the state holds edge " + std::to_string(edge) +
+                                           "; expected 0 to " + std::to_string(count - 1.0)};
+  }
+  if (Status s = LocalGlobalDeformer::restore(state); !s.ok()) return s;
+  for (std::size_t k = 0; k < folded.size(); ++k) {
+    impl_->model.set_normal(static_cast<Index>(folded[k]),
+                            Eigen::Vector3d(&normals->data[3 * k]));
+  }
+  return {};
 }
 
 }  // namespace pliant

@@ -31,6 +31,11 @@ Eigen::Vector3d sigma_of(const EdgeElement& e, const Points& x) {
          (1.0 - e.beta) * x.col(e.m);
 }
 
+/// Of the quadrilateral: along the normal of eq. 4.
+Eigen::Vector3d area_of(const EdgeElement& e, const Points& x) {
+  return (x.col(e.l) - x.col(e.m)).cross(rho_of(e, x));
+}
+
 void add_to_ends(const EdgeElement& e, const Eigen::Vector3d& force, Points& sum) {
   sum.col(e.i) += force;
   sum.col(e.j) -= force;
@@ -65,7 +70,7 @@ EdgeMaterialModel::EdgeMaterialModel(const Shape& shape)
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     const EdgeElement& e = elements_[k];
     if (e.l < 0) continue;
-    const Eigen::Vector3d normal = -rho_of(e, rest_).cross(rest_.col(e.l) - rest_.col(e.m));
+    const Eigen::Vector3d normal = area_of(e, rest_);
     least_normal_[k] = kFolded * normal.norm();
     normals_.col(static_cast<Index>(k)) = normal.normalized();
   }
@@ -166,6 +171,17 @@ BlockMatrix EdgeMaterialModel::matrix() const {
     matrix.off_diagonal.back() += value;
   }
   return matrix;
+}
+
+std::vector<Index> EdgeMaterialModel::folded(const Points& x) const {
+  std::vector<Index> found;
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const EdgeElement& e = elements_[k];
+    if (e.l >= 0 && !(area_of(e, x).norm() > least_normal_[k])) {
+      found.push_back(static_cast<Index>(k));
+    }
+  }
+  return found;
 }
 
 double EdgeMaterialModel::evaluate(const Points& x, Points& half_gradient) {

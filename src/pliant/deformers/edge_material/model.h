@@ -49,6 +49,10 @@ class EdgeMaterialModel final : public LocalModel {
   double resolution() const { return resolution_; }
   const std::vector<EdgeElement>& elements() const { return elements_; }
   const MaterialWeights& weights() const { return weights_; }
+  /// Elements that are folded at x: they keep the normal they had before.
+  std::vector<Index> folded(const Points& x) const;
+  Eigen::Vector3d normal(Index element) const { return normals_.col(element); }
+  void set_normal(Index element, const Eigen::Vector3d& normal) { normals_.col(element) = normal; }
   /// Unweighted terms of the last evaluation.
   double stretch() const { return stretch_; }
   double bend() const { return bend_; }
