@@ -20,28 +20,32 @@ afterEach(async () => {
   await demo.page.context().close();
 });
 
-const open = async (options?: Parameters<typeof openDemo>[2]) => (demo = await openDemo(browser, server.address, options));
+const open = async (options?: Parameters<typeof openDemo>[2]) => (demo = await openDemo(browser, server.address, { tool: "pose", ...options }));
 const ask = <T>(question: (hook: Window["pliantDemo"]) => T): Promise<T> =>
   demo.page.evaluate(`(${question.toString()})(window.pliantDemo)`) as Promise<T>;
 
 describe.each(["served", "from a file"])("%s", (how) => {
   const address = () => (how === "served" ? server.address : demoFile);
 
-  test("greets with a creature, a fixed region and a handle that asks to be dragged", async () => {
+  test("greets with a creature and a line to draw along; posing with a handle that asks to be dragged", async () => {
     demo = await openDemo(browser, address());
     const shape = await ask((hook) => hook.shape());
     expect(shape.id).toBe("creature");
     expect(shape.vertices).toBeGreaterThan(10_000);
     expect((await ask((hook) => hook.fixed())).length).toBeGreaterThan(100);
     expect(await ask((hook) => hook.handles().length)).toBe(1);
+    expect(await demo.page.locator("#tool-sketch").getAttribute("aria-checked")).toBe("true");
+    expect(await demo.page.locator("#coach").innerText()).toBe("Draw along here");
+    expect(await demo.page.locator(".handle").count()).toBe(0);
+    await demo.shot(`page-${how.replaceAll(" ", "-")}`);
+    await demo.page.locator("#tool-pose").click();
     expect(await demo.page.locator("#drag-me").isVisible()).toBe(true);
     expect(demo.page.workers()).toHaveLength(1);
     expect(demo.requests.filter((url) => !url.startsWith("blob:"))).toEqual([address()]);
-    await demo.shot(`page-${how.replaceAll(" ", "-")}`);
   });
 
   test("bends when the handle is dragged; the fixed region stays", async () => {
-    demo = await openDemo(browser, address());
+    demo = await openDemo(browser, address(), { tool: "pose" });
     const handle = await demo.handle();
     await demo.drag(handle, { x: handle.x + 60, y: handle.y - 110 });
     const [rest, now, fixed, shape] = [await ask((h) => h.rest()), await demo.positions(), await ask((h) => h.fixed()), await ask((h) => h.shape())];
@@ -140,7 +144,7 @@ test("a press on the surface places a handle, and the same gesture moves it", as
     for (let v = 0; v < p.length / 3; v++) if (p[3 * v + 1]! > p[3 * top + 1]!) top = v;
     return hook.vertexAt(top);
   });
-  await page.keyboard.press("2");
+  await page.keyboard.press("3");
   await demo.drag({ x: tip.x, y: tip.y + 6 }, { x: tip.x + 50, y: tip.y + 40 });
   const ear = await demo.handle(1);
   expect(ear.vertices.length).toBeGreaterThan(1);
@@ -186,13 +190,13 @@ test("everything can be done with keys", async () => {
   expect(await ask((hook) => hook.handles().length)).toBe(0);
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
 
-  await page.keyboard.press("2");
+  await page.keyboard.press("3");
   await page.keyboard.press("ArrowRight");
   expect(await page.locator("#cross").isVisible()).toBe(true);
   await page.keyboard.press("Enter");
   await idle();
   expect(await ask((hook) => hook.handles().length)).toBe(1);
-  await page.keyboard.press("3");
+  await page.keyboard.press("4");
   const fixed = await ask((hook) => hook.fixed().length);
   for (let i = 0; i < 6; i++) await page.keyboard.press("ArrowRight");
   await page.keyboard.press("Enter");

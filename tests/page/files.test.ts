@@ -11,7 +11,7 @@ let demo: Demo;
 
 beforeAll(async () => (browser = await launch()));
 afterAll(() => browser?.close());
-beforeEach(async () => (demo = await openDemo(browser, demoFile)));
+beforeEach(async () => (demo = await openDemo(browser, demoFile, { tool: "pose" })));
 afterEach(async () => {
   expect(demo.errors).toEqual([]);
   await demo.page.context().close();
@@ -117,7 +117,7 @@ test("a dropped OBJ keeps its vertex order, and its export everything but the co
   await demo.idle();
   expect(await shape()).toMatchObject({ name: "my sheet.obj", vertices: 169, triangles: 289 });
   expect(await demo.page.evaluate(() => window.pliantDemo.rest())).toEqual(vertexLines(text));
-  await demo.page.keyboard.press("2");
+  await demo.page.keyboard.press("3");
   const near = await demo.page.evaluate(() => window.pliantDemo.vertexAt(13 * 11 + 6));
   await demo.drag(near, { x: near.x + 20, y: near.y - 60 });
   const { name, bytes } = await exported("obj");
@@ -142,7 +142,7 @@ test("a dropped picture becomes a sheet that bends in its plane", async () => {
   await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "half.png");
   const rest = await demo.page.evaluate(() => window.pliantDemo.rest());
   expect(Math.max(...rest)).toBeLessThan(0.6); // cells that show nothing are left out
-  await demo.page.keyboard.press("2");
+  await demo.page.keyboard.press("3");
   const top = await demo.page.evaluate(() => window.pliantDemo.vertexAt(10));
   await demo.drag({ x: top.x, y: top.y + 3 }, { x: top.x + 40, y: top.y - 20 });
   const now = await demo.positions();

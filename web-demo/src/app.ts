@@ -1,21 +1,32 @@
 // Joins the parts: what happens in the session is shown, what the visitor does reaches the session.
 import { Session } from "./edit/session.ts";
 import { loadFile } from "./files/load_file.ts";
-import { catalog } from "./shapes/catalog.ts";
+import { catalog, entryOf } from "./shapes/catalog.ts";
 import { boundingBox, type Box, type ShapeData } from "./shapes/shape.ts";
+import { isPosed } from "./edit/sketch_doc.ts";
+import { SketchTool, type StrokeMode } from "./tools/sketch.ts";
 import { makeTools } from "./tools/toolbox.ts";
 import type { Stage } from "./tools/tool.ts";
 import { byId } from "./ui/dom.ts";
 import { HandleOverlay } from "./ui/handle_overlay.ts";
 import { Input } from "./ui/input.ts";
 import { bindChrome } from "./ui/chrome.ts";
+import { LimbPanel } from "./ui/limb_panel.ts";
 import { Panel } from "./ui/panel.ts";
 import { Readout } from "./ui/readout.ts";
+import { StrokeOverlay } from "./ui/stroke_overlay.ts";
 import { Toolbar } from "./ui/toolbar.ts";
 import { GraphView, graphIn } from "./view/graph_view.ts";
 import { pick, type Hit } from "./view/picking.ts";
 import { ShapeView } from "./view/shape_view.ts";
 import { Viewport } from "./view/viewport.ts";
+
+const strokeHints: Record<StrokeMode, (posed: boolean) => string> = {
+  bend: (posed) => (posed ? "Draw again to change it, or start on another part." : "Now draw where it should go."),
+  twist: () => "Drag across the limb to turn it about itself.",
+  scale: () => "Drag away from the limb to make it thicker there, towards it thinner.",
+  cut: () => "Draw a line across the limb: beyond it, it keeps its form.",
+};
 
 export class App {
   readonly viewport = new Viewport(byId<HTMLCanvasElement>("view"));
@@ -24,14 +35,18 @@ export class App {
   private readonly graph = new GraphView();
   private readonly stage: Stage;
   private readonly overlay: HandleOverlay;
+  private readonly strokes: StrokeOverlay;
   private readonly toolbar: Toolbar;
+  private readonly limb: LimbPanel;
   private readonly input: Input;
   private readonly panel: Panel;
   private readonly readout: Readout;
   private readonly chrome: ReturnType<typeof bindChrome>;
   private box: Box = boundingBox([0, 0, 0]);
   private shown: ShapeData | undefined;
+  private opened: ShapeData | undefined;
   private stale = true;
+  private opening = false;
 
   static async start(): Promise<App> {
     let app: App | undefined;
@@ -52,8 +67,10 @@ export class App {
     this.viewport.add(this.view.group);
     this.viewport.add(this.graph.group);
     this.overlay = new HandleOverlay(this.stage, byId("overlay"));
-    const tools = makeTools(this.stage);
-    this.toolbar = new Toolbar(tools, () => this.toolChanged());
+    const sketch = new SketchTool(this.stage);
+    this.strokes = new StrokeOverlay(this.stage, () => this.sketching);
+    this.toolbar = new Toolbar(makeTools(this.stage, sketch), () => this.toolChanged());
+    this.limb = new LimbPanel(session, sketch, () => this.sayHint());
     this.input = new Input(this.stage, () => this.toolbar.current);
     this.readout = new Readout(session);
     this.panel = new Panel(session, {
@@ -69,6 +86,7 @@ export class App {
       reset: () => void session.reset(),
       home: () => this.viewport.goHome(),
       tool: (index) => this.toolbar.choose(index),
+      stroke: (key) => this.sketching && this.limb.key(key),
       open: (file) => void this.openFile(file),
     });
     this.viewport.onDraw(() => this.draw());
@@ -85,10 +103,11 @@ export class App {
       session, viewport, view,
       pick: (x, y) => this.pick(x, y),
       radius: () => this.toolbar.size * this.box.diagonal,
-      preview: (fixed) => {
-        view.paint(session.doc, fixed);
+      preview: (still) => {
+        view.paint(session.doc, still);
         viewport.invalidate();
       },
+      ink: (points) => this.strokes.draw(points),
       showBrush: (at) => this.showBrush(at),
     };
   }
@@ -102,7 +121,7 @@ export class App {
   }
 
   openEntry(id: string): Promise<void> {
-    return this.open(() => catalog.find((entry) => entry.id === id)!.make());
+    return this.open(() => entryOf(id).make());
   }
 
   openFile(file: File): Promise<void> {
@@ -111,13 +130,18 @@ export class App {
 
   /** Shows a shape when it is there; what goes wrong is told. */
   private async open(load: () => Promise<ShapeData>): Promise<void> {
+    this.opening = true;
     this.chrome.busy(true);
     try {
-      if (await this.session.open(await load())) this.chrome.say("");
+      if (await this.session.open(await load())) {
+        this.chrome.say("");
+        if (this.session.doc.opened.start?.method) this.toolbar.chooseById("pose"); // it shows a method, not strokes
+      }
     } catch (error) {
       this.problem(error as Error);
     }
-    this.chrome.busy(false);
+    this.opening = false;
+    this.chrome.busy(this.session.busy);
   }
 
   /** Says what went wrong; the controls show again how things stand. */
@@ -137,30 +161,57 @@ export class App {
     this.viewport.invalidate();
   }
 
+  /** Strokes are drawn, handles are out of sight. */
+  private get sketching(): boolean {
+    return this.toolbar.current.id === "sketch";
+  }
+
   /** Document, history or selection. */
   private changed(): void {
     const { session } = this;
-    if (this.shown !== session.doc.shape) this.takeShape(session.doc.shape);
-    this.view.paint(session.doc);
+    if (session.doc.sketch) this.toolbar.chooseById("sketch"); // by undo, perhaps
+    this.toolbar.refresh();
+    this.takeShape();
+    this.paint();
     this.overlay.refresh();
     this.panel.refresh();
+    this.limb.refresh(this.sketching);
     this.chrome.refresh(session);
-    if (session.canUndo && this.toolbar.current.id === "pose") this.chrome.hint(""); // it has been understood
+    this.chrome.busy(session.busy || this.opening);
+    this.sayHint();
     this.viewport.invalidate();
   }
 
-  private takeShape(shape: ShapeData): void {
-    this.shown = shape;
-    this.box = boundingBox(shape.positions);
-    this.view.show(shape, this.session.solid);
+  /** The shape on the screen; the camera stays unless another one was opened. */
+  private takeShape(): void {
+    const { shown, doc, solid } = this.session;
+    if (this.shown === shown) return;
+    if (this.shown?.triangles === shown.triangles && this.shown.colors === shown.colors) { // only its rest has moved
+      this.shown = shown;
+      return;
+    }
+    this.shown = shown;
+    this.view.show(shown, solid);
     this.view.setWireframe(byId<HTMLInputElement>("wire").checked);
     this.view.setVeiled(byId<HTMLInputElement>("graph").checked);
-    this.viewport.frame(this.box, shape.viewFrom, shape.dimension);
     this.stale = true;
+    if (this.opened === doc.opened) return;
+    this.opened = doc.opened;
+    this.box = boundingBox(doc.opened.positions);
+    this.viewport.frame(this.box, doc.opened);
+  }
+
+  private paint(): void {
+    if (!this.shown) return;
+    const { doc, sketched } = this.session;
+    if (this.sketching) this.view.paintLimb(sketched, doc.sketch !== undefined && isPosed(doc.sketch));
+    else this.view.paint(doc);
   }
 
   /** New positions: uploaded with the next drawing. */
   private framed(): void {
+    this.takeShape();
+    if (this.sketching) this.paint();
     this.stale = true;
     this.viewport.invalidate();
   }
@@ -173,11 +224,31 @@ export class App {
       this.readout.refresh();
     }
     this.overlay.place();
+    this.strokes.place();
   }
 
   private toolChanged(): void {
-    this.chrome?.hint(this.toolbar.current.hint);
-    this.input?.refresh();
+    if (!this.input) return; // being made
+    const { session } = this;
+    if (!this.sketching) void session.leaveLimb();
+    this.viewport.setDrawing(this.sketching);
+    this.overlay.hide(this.sketching);
+    this.limb.refresh(this.sketching);
+    document.body.dataset["tool"] = this.toolbar.current.id;
+    byId("method").hidden = this.sketching;
+    this.paint();
+    this.sayHint();
+    this.input.refresh();
+    this.viewport.invalidate();
+  }
+
+  /** One line on what to do next; none once it has been understood. */
+  private sayHint(): void {
+    const { session, toolbar } = this;
+    const { sketch } = session.doc;
+    if (sketch && this.sketching) this.chrome?.hint(strokeHints[this.limb.mode](isPosed(sketch)));
+    else if (session.canUndo && ["pose", "sketch"].includes(toolbar.current.id)) this.chrome?.hint("");
+    else this.chrome?.hint(toolbar.current.hint);
   }
 
   private showBrush(at: Parameters<Stage["showBrush"]>[0]): void {

@@ -2,7 +2,6 @@
 // waiting: everything is done through the page itself.
 import { Vector3 } from "three";
 import type { App } from "./app.ts";
-import { editScript } from "./edit/document.ts";
 import { placeOf } from "./tools/handle_drag.ts";
 
 export interface PliantDemo {
@@ -11,14 +10,22 @@ export interface PliantDemo {
   /** Deformed and rest positions, 3 n. */
   positions(): number[];
   rest(): number[];
+  /** Of the shape as it was opened, 3 m. */
+  triangles(): number[];
   fixed(): number[];
   handles(): { id: number; name: string; vertices: number[]; x: number; y: number }[];
   shape(): { id: string; name: string; vertices: number; triangles: number; diagonal: number };
   /** Where a vertex is on the page, in pixels. */
   vertexAt(vertex: number): { x: number; y: number };
+  /** Where a point in space is on the page. */
+  project(point: [number, number, number]): { x: number; y: number };
   /** The vertex under a place on the page, or -1. */
   pick(x: number, y: number): number;
   script(): unknown;
+  /** The limb under strokes: a label and a parameter a vertex, and the curve it lies on, on the page. */
+  limb(): { labels: number[]; s: number[]; curve: { x: number; y: number }[] } | undefined;
+  /** Whether the shape is at rest, on its way, or goes to and fro. */
+  motion(): string;
   selected(): number | undefined;
 }
 
@@ -32,16 +39,25 @@ export function installHook(app: App): void {
   const hook: PliantDemo = {
     idle: () => session.idle(),
     positions: () => [...session.positions],
-    rest: () => [...session.doc.shape.positions],
+    rest: () => [...session.doc.opened.positions],
+    triangles: () => [...session.doc.opened.triangles],
     fixed: () => [...session.doc.fixed],
-    handles: () => session.doc.handles.map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
+    handles: () => session.doc.handles.filter((h) => !h.held).map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
     shape: () => ({
-      id: session.doc.shape.id, name: session.doc.shape.name, vertices: session.doc.shape.positions.length / 3,
-      triangles: session.doc.shape.triangles.length / 3, diagonal: app.diagonal,
+      id: session.doc.shape.id, name: session.doc.shape.name, vertices: session.shown.positions.length / 3,
+      triangles: session.shown.triangles.length / 3, diagonal: app.diagonal,
     }),
     vertexAt: (v) => onPage(new Vector3().fromArray(session.positions, 3 * v)),
+    project: (point) => onPage(new Vector3(...point)),
     pick: (x, y) => app.pick(x, y)?.vertex ?? -1,
-    script: () => editScript(session.doc),
+    script: () => session.script(),
+    limb: () => {
+      const { sketched } = session;
+      if (!sketched) return undefined;
+      const points = Array.from({ length: sketched.target.length / 3 }, (_, i) => new Vector3().fromArray(sketched.target, 3 * i));
+      return { labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.s)], curve: points.map(onPage) };
+    },
+    motion: () => session.motion,
     selected: () => session.selected,
   };
   Object.assign(window, { pliantDemo: hook });

@@ -58,7 +58,10 @@ export interface Demo {
 
 export const demoFile = pathToFileURL(join(dist, "demo/index.html")).href;
 
-export async function openDemo(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Demo> {
+/** `tool`: the one to start with instead of the page's own. */
+export async function openDemo(
+  browser: Browser, address: string, { tool, ...options }: BrowserContextOptions & { tool?: string } = {},
+): Promise<Demo> {
   const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
   const errors: string[] = [];
@@ -70,6 +73,7 @@ export async function openDemo(browser: Browser, address: string, options: Brows
   await page.waitForFunction(() => window.pliantDemo !== undefined);
   const idle = () => page.evaluate(() => window.pliantDemo.idle());
   await idle();
+  if (tool) await page.locator(`#tool-${tool}`).click();
   return {
     page, errors, requests, idle,
     handle: async (index = 0) => (await page.evaluate(() => window.pliantDemo.handles())).at(index)!,

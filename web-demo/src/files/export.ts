@@ -1,5 +1,4 @@
 // Downloads: what the session holds, as files.
-import { editScript } from "../edit/document.ts";
 import type { Session } from "../edit/session.ts";
 import { writeGlb } from "./write_glb.ts";
 import { writeObj } from "./write_obj.ts";
@@ -10,11 +9,11 @@ export type ExportKind = "obj" | "glb" | "script";
 const baseName = ({ id, name }: { id: string; name: string }) => (id === "file" ? name.replace(/\.[^.]*$/, "") : id);
 
 export async function download(session: Session, kind: ExportKind): Promise<void> {
-  const { doc, positions, normals } = session;
+  const { doc, shown, positions, normals } = session;
   const base = baseName(doc.shape);
-  if (kind === "obj") save(`${base}-bent.obj`, "model/obj", writeObj(doc.shape, positions));
-  if (kind === "glb") save(`${base}-bent.glb`, "model/gltf-binary", await writeGlb(doc.shape, positions, normals));
-  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(editScript(doc), undefined, 1));
+  if (kind === "obj") save(`${base}-bent.obj`, "model/obj", writeObj(shown, positions));
+  if (kind === "glb") save(`${base}-bent.glb`, "model/gltf-binary", await writeGlb(shown, positions, normals));
+  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(session.script(), undefined, 1));
 }
 
 function save(name: string, type: string, content: string | Uint8Array<ArrayBuffer>): void {

@@ -1,11 +1,15 @@
 // What the page knows about a shape at rest, wherever it came from.
 
+import type { Options } from "../methods.ts";
+
 export interface ShapeData {
   /** Key of the catalog, or "file" for the user's own. */
   id: string;
   name: string;
   /** 3 n coordinates, vertex by vertex; z = 0 throughout where `dimension` is 2. */
   positions: Float32Array;
+  /** The same in double, where they are the result of an earlier step: scripts go on from those. */
+  exact?: Float64Array;
   /** 3 m vertex ids; empty: points. */
   triangles: Uint32Array;
   dimension: 2 | 3;
@@ -19,6 +23,10 @@ export interface ShapeData {
   start?: StartPose;
   /** Where the camera looks from, a direction; default: from the front, right and above. */
   viewFrom?: readonly [number, number, number];
+  /** How far below the middle the camera looks, as a share of the diagonal: it will hang. */
+  hangs?: number;
+  /** Mirrored gestures are reflected at this x; default: the middle. */
+  mirrorAt?: number;
   /** Vertices with no triangle are drawn as dots of this share of the diagonal. */
   dotSize?: number;
 }
@@ -26,7 +34,14 @@ export interface ShapeData {
 export interface StartPose {
   fixed: (p: readonly [number, number, number]) => boolean;
   handles: { name: string; center: readonly [number, number, number]; radius: number }[];
+  /** A method that shows it best, with options that are not its defaults. */
+  method?: string;
+  options?: Options;
+  /** Where a first stroke could go, and a second: points in space that the page hints at. */
+  strokes?: readonly [reference: Path, target: Path];
 }
+
+type Path = readonly (readonly [number, number, number])[];
 
 export const vertexCount = (shape: ShapeData): number => shape.positions.length / 3;
 

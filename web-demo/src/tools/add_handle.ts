@@ -38,7 +38,7 @@ export class AddHandle implements Tool {
     const hit = this.stage.pick(x, y);
     if (!hit) return undefined;
     const { session } = this.stage;
-    const there = session.doc.handles.find((h) => h.vertices.includes(hit.vertex));
+    const there = session.doc.handles.find((h) => !h.held && h.vertices.includes(hit.vertex));
     if (there) {
       session.select(there.id);
       return there.id;

@@ -16,12 +16,12 @@ export class Paint implements Tool {
     this.id = adds ? "fix" : "free";
     this.label = adds ? "Fix" : "Free";
     this.icon = adds ? "fix" : "free";
-    this.hint = adds ? "Paint what must not move: it stays at rest." : "Wipe over blue parts to let them move again.";
+    this.hint = adds ? "Paint what must not move: it stays where it is." : "Wipe over blue parts to let them move again.";
   }
 
   down(at: Pointer): boolean {
     if (!this.stage.pick(at.x, at.y)) return false;
-    this.stroke = new Set(this.stage.session.doc.fixed);
+    this.stroke = new Set(this.stage.session.still);
     this.last = at;
     this.dab(at);
     return true;
@@ -41,7 +41,7 @@ export class Paint implements Tool {
   }
 
   up(): void {
-    if (this.stroke) void this.stage.session.setFixed(this.stroke);
+    if (this.stroke) void this.stage.session.setStill(this.stroke);
     this.stroke = undefined;
     this.stage.preview();
   }
@@ -58,7 +58,7 @@ export class Paint implements Tool {
     const hit = this.stage.pick(x, y);
     if (!hit || !this.stroke) return;
     const { topology, positions, doc } = this.stage.session;
-    const held = new Set(doc.handles.flatMap((h) => [...h.vertices]));
+    const held = new Set(doc.handles.flatMap((h) => (h.held ? [] : [...h.vertices])));
     for (const v of patchAround(topology, positions, hit.vertex, hit.point.toArray(), this.stage.radius())) {
       if (!this.adds) this.stroke.delete(v);
       else if (!held.has(v)) this.stroke.add(v);

@@ -16,6 +16,8 @@ export interface Stage {
   radius(): number;
   /** Colours of a stroke that is not done yet; undefined: the document's. */
   preview(fixed?: ReadonlySet<number>): void;
+  /** The line that is being drawn, or none. */
+  ink(points: readonly Pointer[] | undefined): void;
   /** A circle of the tool's size at a place on the page, or none. */
   showBrush(at?: { x: number; y: number; hit: Hit | undefined }): void;
 }
@@ -36,8 +38,13 @@ export interface Tool {
   readonly size?: { min: number; max: number; start: number };
   /** True: the tool has the pointer until it is up. False: the camera has it. */
   down(at: Pointer): boolean;
-  move?(at: Pointer): void;
+  /** `samples`: every place since the last call, where the device tells more than the page asks for; the last is `at`. */
+  move?(at: Pointer, samples: readonly Pointer[]): void;
   up?(): void;
+  /** The gesture was none: a palm, or the first of two fingers. */
+  cancel?(): void;
+  /** Whether the tool can be used on what is there; absent: always. */
+  available?(): boolean;
   /** The pointer moves with no button down; undefined: it left. */
   hover?(at: Pointer | undefined): void;
   /** Enter was pressed, with the cross in the middle of the view at `at`. */

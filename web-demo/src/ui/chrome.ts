@@ -9,6 +9,8 @@ export interface ChromeActions {
   reset(): void;
   home(): void;
   tool(index: number): void;
+  /** A way of using strokes, by its first letter; "Escape" lets go of the limb. Whether it was of use. */
+  stroke(key: string): boolean;
   open(file: File): void;
 }
 
@@ -56,7 +58,7 @@ function bindKeys(actions: ChromeActions, help: HTMLDialogElement): void {
   const click = (id: string) => () => byId(id).click();
   const plain: Record<string, () => void> = {
     r: actions.reset, 0: actions.home, g: click("graph"), w: click("wire"), "?": () => help.showModal(),
-    1: () => actions.tool(0), 2: () => actions.tool(1), 3: () => actions.tool(2), 4: () => actions.tool(3),
+    ...Object.fromEntries([0, 1, 2, 3, 4, 5].map((i) => [i + 1, () => actions.tool(i)])),
   };
   document.addEventListener("keydown", (event) => {
     if (help.open) return;
@@ -66,9 +68,10 @@ function bindKeys(actions: ChromeActions, help: HTMLDialogElement): void {
       (key === "y" || event.shiftKey ? actions.redo : actions.undo)();
     } else {
       const typing = event.target instanceof HTMLSelectElement || event.altKey;
-      const act = typing ? undefined : plain[key];
-      if (!act) return;
-      act();
+      if (typing) return;
+      const act = plain[key];
+      if (act) act();
+      else if (!actions.stroke(key)) return;
     }
     event.preventDefault();
   });

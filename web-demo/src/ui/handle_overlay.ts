@@ -17,6 +17,7 @@ export class HandleOverlay {
   private readonly bubble = make("div", { class: "bubble", id: "drag-me" }, make("span", {}, "Drag me"));
   /** The hint points at the first handle until something has been moved. */
   private greeting = true;
+  private hidden = false;
 
   constructor(private readonly stage: Stage, private readonly root: HTMLElement) {
     const catcher = makeSvg("circle", { class: "catch", cx: "58", cy: "58", r: "46" });
@@ -28,16 +29,28 @@ export class HandleOverlay {
     this.follow(catcher, () => this.stage.session.selected, () => "turn");
   }
 
+  /** No handles while strokes are drawn. */
+  hide(on: boolean): void {
+    if (this.hidden === on) return;
+    this.hidden = on;
+    this.refresh();
+  }
+
+  /** Parts that are only held in place have no button. */
+  private get shown(): readonly HandleDoc[] {
+    return this.hidden || this.stage.session.doc.sketch ? [] : this.stage.session.doc.handles.filter((h) => !h.held);
+  }
+
   /** Matches the buttons with the document. */
   refresh(): void {
     const { doc, selected } = this.stage.session;
-    if (hasMoved(doc)) this.greeting = false;
+    if (hasMoved(doc) || doc.done.length > 0) this.greeting = false;
     for (const [id, button] of this.buttons) {
-      if (doc.handles.some((h) => h.id === id)) continue;
+      if (this.shown.some((h) => h.id === id)) continue;
       button.remove();
       this.buttons.delete(id);
     }
-    for (const handle of doc.handles) {
+    for (const handle of this.shown) {
       const button = this.buttons.get(handle.id) ?? this.add(handle.id);
       button.setAttribute("aria-label", `Handle ${handle.name}`);
       button.setAttribute("aria-pressed", String(handle.id === selected));
@@ -47,8 +60,8 @@ export class HandleOverlay {
 
   /** Puts everything where the camera sees it. */
   place(): void {
-    const { session, viewport } = this.stage;
-    for (const handle of session.doc.handles) {
+    const { viewport } = this.stage;
+    for (const handle of this.shown) {
       const at = viewport.toScreen(placeOf(handle));
       const button = this.buttons.get(handle.id);
       if (!button) continue;
@@ -61,7 +74,7 @@ export class HandleOverlay {
 
   private placeRing(): void {
     const { session, viewport } = this.stage;
-    const handle = session.selected === undefined ? undefined : session.handle(session.selected);
+    const handle = session.selected === undefined || this.hidden ? undefined : session.handle(session.selected);
     const shown = handle !== undefined && handle.vertices.length > 1;
     this.ring.toggleAttribute("hidden", !shown);
     if (!handle) return;
@@ -74,8 +87,8 @@ export class HandleOverlay {
   }
 
   private placeBubble(): void {
-    const { session, viewport } = this.stage;
-    const first = session.doc.handles[0];
+    const { viewport } = this.stage;
+    const first = this.shown[0];
     this.bubble.hidden = !this.greeting || !first;
     if (!first) return;
     const at = viewport.toScreen(placeOf(first));
@@ -151,7 +164,7 @@ export class HandleOverlay {
   }
 
   private remove(id: number): void {
-    const ids = this.stage.session.doc.handles.map((h) => h.id);
+    const ids = this.shown.map((h) => h.id);
     const next = ids[ids.indexOf(id) + 1] ?? ids[ids.indexOf(id) - 1];
     void this.stage.session.removeHandle(id);
     (next === undefined ? this.stage.viewport.canvas : this.buttons.get(next)!).focus();

@@ -2,8 +2,19 @@
 import type { Stage, Tool } from "../tools/tool.ts";
 import { byId } from "./dom.ts";
 
+/** Pixels: what touches in a larger patch is a palm. */
+const palm = 48;
+/** Pixels that a finger may have moved before a second one makes it a gesture of the camera. */
+const fingerSlack = 24;
+
+const isPalm = (event: PointerEvent): boolean => event.pointerType === "touch" && Math.max(event.width, event.height) > palm;
+
 export class Input {
   private holder: number | undefined; // the pointer the tool has
+  private first: PointerEvent | undefined; // how it went down
+  private travelled = 0;
+  private readonly pens = new Set<number>();
+  private readonly replayed = new WeakSet<Event>();
   private readonly cross = byId("cross");
 
   constructor(private readonly stage: Stage, private readonly tool: () => Tool) {
@@ -35,25 +46,58 @@ export class Input {
 
   private down(event: PointerEvent): void {
     const { canvas } = this.stage.viewport;
-    if (event.target !== canvas) return;
+    if (event.target !== canvas || this.replayed.has(event)) return;
     this.useKeys(false);
+    if (isPalm(event) || (event.pointerType === "touch" && this.pens.size > 0)) return event.stopPropagation();
+    if (event.pointerType === "pen") this.penDown(event.pointerId);
     if (event.button !== 0) return;
-    if (this.holder !== undefined) return event.stopPropagation();
+    if (this.holder !== undefined) return this.second(event);
     if (!this.tool().down({ x: event.clientX, y: event.clientY })) return;
     this.holder = event.pointerId;
+    this.first = event;
     canvas.setPointerCapture(event.pointerId);
     event.stopPropagation();
   }
 
+  /** A pen takes over from the hand it rests on. */
+  private penDown(id: number): void {
+    this.pens.add(id);
+    if (this.first?.pointerType === "touch") this.letGo();
+  }
+
+  /** A second finger: both are the camera's, unless the first has drawn already. */
+  private second(event: PointerEvent): void {
+    if (event.pointerType !== "touch" || this.first?.pointerType !== "touch" || this.travelled > fingerSlack) return event.stopPropagation();
+    const first = new PointerEvent("pointerdown", this.first);
+    this.letGo();
+    this.replayed.add(first);
+    this.stage.viewport.canvas.dispatchEvent(first);
+  }
+
+  private letGo(): void {
+    this.holder = this.first = undefined;
+    this.travelled = 0;
+    this.tool().cancel?.();
+  }
+
   private move(event: PointerEvent): void {
     const at = { x: event.clientX, y: event.clientY };
-    if (event.pointerId === this.holder) this.tool().move?.(at);
-    else if (event.buttons === 0) this.tool().hover?.(at);
+    if (event.pointerId !== this.holder) {
+      if (event.buttons === 0) this.tool().hover?.(at);
+      return;
+    }
+    if (isPalm(event)) return this.letGo();
+    this.travelled = Math.max(this.travelled, Math.hypot(at.x - this.first!.clientX, at.y - this.first!.clientY));
+    const samples = event.getCoalescedEvents().map(({ clientX: x, clientY: y }) => ({ x, y }));
+    this.tool().move?.(at, samples.length > 0 ? samples : [at]);
   }
 
   private up(event: PointerEvent): void {
+    this.pens.delete(event.pointerId);
     if (event.pointerId !== this.holder) return;
-    this.holder = undefined;
+    if (event.type === "pointercancel" && this.tool().cancel) return this.letGo();
+    this.holder = this.first = undefined;
+    this.travelled = 0;
     this.tool().up?.();
     if (event.pointerType !== "mouse") this.tool().hover?.(undefined);
   }

@@ -1,7 +1,7 @@
 // The settings beside the view: shape, method and its options, what is shown, export.
 import type { Session } from "../edit/session.ts";
 import { download, type ExportKind } from "../files/export.ts";
-import { methodOf, methods, type MethodOption } from "../methods.ts";
+import { isPainting, methodOf, methods, type MethodOption, type Options, type Strokes } from "../methods.ts";
 import { catalog } from "../shapes/catalog.ts";
 import { byId, make } from "./dom.ts";
 
@@ -17,17 +17,28 @@ export class Panel {
   private readonly shapes = byId("shapes").querySelector(".chips")!;
   private readonly choice = byId<HTMLSelectElement>("method-choice");
   private readonly options = byId("options");
+  /** Each shows its option as the document has it. */
+  private controls: ((options: Options) => void)[] = [];
+  private readonly clear = make("button", { class: "small", id: "clear-strokes" }, "Clear strokes");
   private shownMethod = "";
   private shown: readonly unknown[] = [];
 
   constructor(private readonly session: Session, private readonly actions: PanelActions) {
     for (const { id, name } of catalog) this.addShape(id, name);
     for (const { id, label, help } of methods) this.choice.append(make("option", { value: id, title: help }, label));
+    this.clear.addEventListener("click", () => void session.setOption("strokes", []));
     this.choice.addEventListener("change", () => void session.setMethod(this.choice.value));
     const file = byId<HTMLInputElement>("file");
     file.addEventListener("change", () => {
       if (file.files?.[0]) actions.openFile(file.files[0]);
       file.value = "";
+    });
+    const pace = byId<HTMLInputElement>("pace");
+    const showPace = () => ((pace.previousElementSibling as HTMLOutputElement).value = pace.value === "0" ? "auto" : pace.value);
+    showPace();
+    pace.addEventListener("input", () => {
+      showPace();
+      session.setPace(Number(pace.value));
     });
     this.check("graph", actions.watchGraph);
     this.check("wire", actions.wireframe);
@@ -67,30 +78,49 @@ export class Panel {
     byId("shapes").querySelector(".file span")!.textContent = known ? "Open a file…" : `${doc.shape.name} · open another…`;
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
-    for (const input of this.options.querySelectorAll("input")) {
-      const value = doc.options[input.name];
-      if (typeof value === "boolean") input.checked = value;
-      else (input.previousElementSibling as HTMLOutputElement).value = input.value = String(value);
-    }
+    byId("graph").parentElement!.hidden = doc.method !== "embedded-graph";
+    for (const control of this.controls) control(doc.options);
+    this.clear.hidden = !isPainting(doc.method, doc.options) || (doc.options["strokes"] as Strokes).length === 0;
   }
 
   private makeOptions(method: string): void {
     this.shownMethod = method;
+    this.controls = [];
     this.options.replaceChildren(...methodOf(method).options.map((option) =>
-      "min" in option ? this.slider(option) : this.toggle(option)));
+      "min" in option ? this.slider(option, methodOf(method).live ?? false) : "choices" in option ? this.select(option) : this.toggle(option)), this.clear);
   }
 
-  private slider({ key, label, help, min, max, step }: Extract<MethodOption, { min: number }>): HTMLElement {
-    const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${min}`, max: `${max}`, step: `${step}` });
+  private slider({ key, label, help, min, max, step, log }: Extract<MethodOption, { min: number }>, live: boolean): HTMLElement {
+    // In the logarithm the left end stands for 0.
+    const [low, high] = log ? [Math.log10(min) - step, Math.log10(max)] : [min, max];
+    const valueAt = (place: number) => (!log ? place : place < low + step / 2 ? 0 : Number((10 ** place).toPrecision(2)));
+    const placeOf = (value: number) => (!log ? value : value <= 0 ? low : Math.log10(value));
+    const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${low}`, max: `${high}`, step: `${step}` });
     const output = make("output", { for: input.id });
-    input.addEventListener("input", () => (output.value = input.value));
-    input.addEventListener("change", () => void this.session.setOption(key, Number(input.value)));
+    const set = () => void this.session.setOption(key, valueAt(Number(input.value)));
+    input.addEventListener("input", () => {
+      output.value = String(valueAt(Number(input.value)));
+      if (live) set();
+    });
+    if (!live) input.addEventListener("change", set);
+    this.controls.push((options) => {
+      if (valueAt(Number(input.value)) !== options[key]) input.value = String(placeOf(options[key] as number));
+      output.value = String(options[key]);
+    });
     return make("label", { class: "option", title: help, for: input.id }, label, output, input); // an output could be labelled too
+  }
+
+  private select({ key, label, help, choices }: Extract<MethodOption, { choices: unknown }>): HTMLElement {
+    const select = make("select", { id: `option-${key}`, name: key }, ...choices.map(([value, text]) => make("option", { value }, text)));
+    select.addEventListener("change", () => void this.session.setOption(key, select.value));
+    this.controls.push((options) => (select.value = options[key] as string));
+    return make("label", { class: "option wide", title: help, for: select.id }, label, select);
   }
 
   private toggle({ key, label, help }: MethodOption): HTMLElement {
     const input = make("input", { type: "checkbox", id: `option-${key}`, name: key });
     input.addEventListener("change", () => void this.session.setOption(key, input.checked));
+    this.controls.push((options) => (input.checked = options[key] as boolean));
     return make("label", { class: "check", title: help }, input, label);
   }
 }

@@ -19,17 +19,22 @@ export class Readout {
   constructor(private readonly session: Session) {
     const list = byId("readout");
     for (const [id, label] of [
-      ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"], ["volume", "Volume"],
+      ["state", "State"], ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"], ["volume", "Volume"],
       ["stretch", "Mean stretch"], ["vertices", "Vertices"],
     ] as const) {
       const value = make("dd", { id: `readout-${id}` }, "–");
-      list.append(make("dt", {}, label), value);
+      if (id === "state") value.replaceChildren(make("span", { class: "state" }));
+      const kind = { class: ["state", "energy", "iterations", "ms"].includes(id) ? "solver" : "" };
+      value.className = kind.class;
+      list.append(make("dt", kind, label), value);
       this.values.set(id, value);
     }
   }
 
   refresh(): void {
-    const { step, report } = this.session;
+    const { step, report, motion } = this.session;
+    this.set("state", { settled: "settled", moving: "on its way", swinging: "to and fro" }[motion]);
+    this.values.get("state")!.firstElementChild?.setAttribute("data-motion", motion);
     this.set("energy", figure(step?.energy));
     this.set("iterations", step ? String(step.iteration) : "–");
     this.set("ms", step ? `${step.milliseconds.toFixed(1)} ms` : "–");
@@ -42,7 +47,8 @@ export class Readout {
   }
 
   private set(id: string, text: string): void {
-    const element = this.values.get(id)!;
+    const place = this.values.get(id)!;
+    const element = place.firstElementChild ?? place;
     if (element.textContent !== text) element.textContent = text;
   }
 }

@@ -3,6 +3,8 @@ import type { Tool } from "../tools/tool.ts";
 import { byId, make } from "./dom.ts";
 import { icon } from "./icons.ts";
 
+const usable = (tool: Tool): boolean => tool.available?.() ?? true;
+
 export class Toolbar {
   private readonly buttons: HTMLButtonElement[];
   private readonly slider = byId<HTMLInputElement>("size");
@@ -21,7 +23,8 @@ export class Toolbar {
     for (const tool of tools) this.sizes.set(tool, tool.size?.start ?? 0);
     byId("tools").append(...this.buttons);
     this.slider.addEventListener("input", () => this.sizes.set(this.current, Number(this.slider.value) / 100));
-    this.choose(0);
+    this.row.hidden = true;
+    this.choose(this.tools.findIndex(usable));
   }
 
   /** Of the current tool, as a share of the shape's diagonal. */
@@ -30,9 +33,19 @@ export class Toolbar {
     return size ? size.min + (size.max - size.min) * this.sizes.get(this.current)! ** 1.6 : 0;
   }
 
+  /** Shows the tools that can be used; where the current one cannot, the next takes over. */
+  refresh(): void {
+    this.tools.forEach((tool, i) => (this.buttons[i]!.hidden = !usable(tool)));
+    if (!usable(this.current)) this.choose(this.tools.findIndex(usable));
+  }
+
+  chooseById(id: string): void {
+    if (this.current.id !== id) this.choose(this.tools.findIndex((tool) => tool.id === id));
+  }
+
   choose(index: number): void {
     const tool = this.tools[index];
-    if (!tool) return;
+    if (!tool || !usable(tool)) return;
     this.current = tool;
     this.buttons.forEach((button, i) => {
       button.setAttribute("aria-checked", String(i === index));
@@ -47,7 +60,10 @@ export class Toolbar {
   private key(event: KeyboardEvent, index: number): void {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
     if (step === undefined) return;
-    const next = (index + step + this.tools.length) % this.tools.length;
+    const count = this.tools.length;
+    let next = index;
+    do next = (next + step + count) % count;
+    while (!usable(this.tools[next]!));
     this.choose(next);
     this.buttons[next]!.focus();
     event.preventDefault();

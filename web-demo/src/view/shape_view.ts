@@ -5,6 +5,7 @@ import {
 } from "three";
 import type { Doc } from "../edit/document.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
+import type { Limb } from "../solver/sketch_client.ts";
 
 type Color = readonly [number, number, number];
 
@@ -23,8 +24,8 @@ const linear = Float32Array.from({ length: 256 }, (_, c) => {
 export class ShapeView {
   readonly group = new Group();
   private geometry = new BufferGeometry();
-  /** The regions the colours show: fixed, then of each handle. */
-  private painted: Iterable<number>[] = [];
+  /** What the colours show. */
+  private painted: unknown[] = [];
   object: Mesh | Points | undefined;
 
   /** Takes a shape on; its geometry from before is freed. `solid`: only its outside is ever seen. */
@@ -88,16 +89,36 @@ export class ShapeView {
     attribute.needsUpdate = true;
   }
 
-  /** Colours from the constraints; `stroke`: the fixed region as a stroke that is not done yet leaves it. */
+  /** Colours from the constraints; `stroke`: what is still as a stroke that is not done yet leaves it. */
   paint(doc: Doc, stroke?: ReadonlySet<number>): void {
-    const regions = [stroke ?? doc.fixed, ...doc.handles.map((h) => h.vertices)];
-    if (!stroke && regions.length === this.painted.length && regions.every((r, i) => r === this.painted[i])) return;
-    this.painted = stroke ? [] : regions;
+    const held = doc.handles.filter((h) => h.held).map((h) => h.vertices);
+    const pulled = doc.handles.filter((h) => !h.held).map((h) => h.vertices);
+    const still = stroke ? [stroke] : [doc.fixed, ...held];
+    this.repaint([...still, undefined, ...pulled], stroke !== undefined, (tints) => {
+      for (const region of still) for (const v of region) tints.set(fixedTint, 4 * v);
+      for (const region of pulled) for (const v of region) tints.set(heldTint, 4 * v);
+    });
+  }
+
+  /** The limb under strokes from red to blue along it, or nothing; fainter once it has been posed. */
+  paintLimb(limb: Limb | undefined, faint: boolean): void {
+    this.repaint([limb?.labels, limb?.s, faint], false, (tints) => {
+      if (!limb) return;
+      const share = faint ? 70 : 165;
+      for (let v = 0; 4 * v < tints.length; v++) {
+        const s = limb.s[v] ?? 0;
+        if ((limb.labels[v] ?? 1) > 0) tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, share], 4 * v);
+      }
+    });
+  }
+
+  private repaint(key: unknown[], always: boolean, fill: (tints: Uint8Array) => void): void {
+    if (!always && key.length === this.painted.length && key.every((part, i) => part === this.painted[i])) return;
+    this.painted = always ? [] : key;
     const attribute = this.geometry.getAttribute("tint") as BufferAttribute;
     const tints = attribute.array as Uint8Array;
     tints.fill(0);
-    for (const v of regions[0]!) tints.set(fixedTint, 4 * v);
-    for (const held of regions.slice(1)) for (const v of held) tints.set(heldTint, 4 * v);
+    fill(tints);
     attribute.needsUpdate = true;
   }
 

@@ -1,10 +1,11 @@
 // The picture: scene, lights, camera. Drawn only when something changed.
 import {
-  DirectionalLight, HemisphereLight, Mesh, Object3D, PerspectiveCamera, PlaneGeometry, Scene, ShadowMaterial,
-  Vector3, PCFShadowMap, WebGLRenderer,
+  DirectionalLight, HemisphereLight, Mesh, MOUSE, Object3D, PerspectiveCamera, PlaneGeometry, Scene, ShadowMaterial,
+  TOUCH, Vector3, PCFShadowMap, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Box } from "../shapes/shape.ts";
+import type { SketchCamera } from "../edit/sketch_doc.ts";
+import type { Box, ShapeData } from "../shapes/shape.ts";
 
 const defaultView = [0.42, 0.25, 1] as const;
 
@@ -91,15 +92,16 @@ export class Viewport {
   }
 
   /** Looks at a new shape from `from`; scales light and ground to it. */
-  frame(box: Box, from: readonly [number, number, number] = defaultView, dimension: 2 | 3 = 3): void {
+  frame(box: Box, { viewFrom = defaultView, dimension, hangs = 0 }: ShapeData): void {
     const radius = Math.max(box.diagonal / 2, 1e-9);
-    const center = new Vector3(...box.center);
+    const center = new Vector3(...box.center).addScaledVector(new Vector3(0, -1, 0), hangs * box.diagonal);
+    const tall = Math.max(0.86, (1.04 * (box.max[1] - box.min[1])) / Math.max(box.diagonal, 1e-9));
     const { clientWidth, clientHeight } = this.canvas;
     const narrow = Math.min(clientHeight - topRoom - bottomRoom, clientWidth - this.inset) / clientHeight;
-    const distance = (0.86 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    const distance = (tall * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
     this.camera.near = radius / 50;
     this.camera.far = radius * 60;
-    this.camera.position.copy(center).addScaledVector(new Vector3(...from).normalize(), distance);
+    this.camera.position.copy(center).addScaledVector(new Vector3(...viewFrom).normalize(), distance);
     this.camera.updateProjectionMatrix();
     this.controls.target.copy(center);
     this.controls.minDistance = radius / 10;
@@ -107,7 +109,7 @@ export class Viewport {
     this.home = { position: this.camera.position.clone(), target: center };
     this.light(center, radius);
     this.ground.visible = dimension === 3;
-    this.ground.position.set(center.x, box.min[1] - 0.002 * radius, center.z);
+    this.ground.position.set(center.x, box.min[1] - 0.002 * radius - 2.4 * hangs * box.diagonal, center.z);
     this.ground.scale.setScalar(radius * 12);
     this.controls.update();
     this.invalidate();
@@ -144,6 +146,37 @@ export class Viewport {
     const p = point.clone().project(this.camera);
     const { clientWidth, clientHeight } = this.canvas;
     return { x: ((p.x + 1) / 2) * clientWidth, y: ((1 - p.y) / 2) * clientHeight, depth: p.z };
+  }
+
+  /** While strokes are drawn the right button and two fingers turn the camera, the middle button shifts it. */
+  setDrawing(on: boolean): void {
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: on ? MOUSE.PAN : MOUSE.DOLLY, RIGHT: on ? MOUSE.ROTATE : MOUSE.PAN };
+    this.controls.touches = { ONE: TOUCH.ROTATE, TWO: on ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN };
+  }
+
+  /** The camera as the library knows it: the whole picture, of which the page shows a shifted part. */
+  sketchCamera(): SketchCamera {
+    const { up } = this.axes();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return {
+      eye: this.camera.position.toArray(), target: this.controls.target.toArray(), up: up.toArray(), fovY: this.camera.fov, width, height,
+    };
+  }
+
+  /** From pixels on the page to pixels of the sketch camera. */
+  toPicture(clientX: number, clientY: number): readonly [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    return [clientX - box.left + this.inset / 2, clientY - box.top + (bottomRoom - topRoom) / 2];
+  }
+
+  /** A curve in space, three numbers a node, as pixels of the sketch camera. */
+  curveInPicture(nodes: ArrayLike<number>): (readonly [number, number])[] {
+    return this.curveOnScreen(nodes).map(({ x, y }) => [x + this.inset / 2, y + (bottomRoom - topRoom) / 2] as const);
+  }
+
+  /** The same in pixels from the canvas's top left corner. */
+  curveOnScreen(nodes: ArrayLike<number>): { x: number; y: number }[] {
+    return Array.from({ length: nodes.length / 3 }, (_, i) => this.toScreen(new Vector3(nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2])));
   }
 
   /** From pixels on the page to -1 .. 1. */

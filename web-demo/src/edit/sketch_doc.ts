@@ -1,0 +1,118 @@
+// A limb under two strokes, as the visitor made it: immutable, like the rest of the document.
+import type { Vec3 } from "./motion.ts";
+
+/** Pixels of the picture the camera makes: origin at the top left, y down. */
+export type Pixel = readonly [number, number];
+export type Profile = readonly (readonly [number, number])[];
+
+/** CAMERA of the contract, section 3. */
+export interface SketchCamera {
+  readonly eye: Vec3;
+  readonly target: Vec3;
+  readonly up: Vec3;
+  readonly fovY: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The three spline controls. */
+export const controls = ["turning", "scale", "twistSpeed"] as const;
+export type Control = (typeof controls)[number];
+
+/** A control by its values at s = 0, 1/4, 1/2, 3/4 and 1. */
+export type Knots = readonly number[];
+
+/** Methods that can finish what a sketch began. */
+export const finishers = ["arap", "edge-material", "embedded-graph"] as const;
+
+export interface SketchDoc {
+  readonly camera: SketchCamera;
+  readonly reference: readonly Pixel[];
+  /** The region is not chosen by the reference: it was by another stroke, or is that of the step before (`labels`). */
+  readonly region?: { readonly camera: SketchCamera; readonly reference: readonly Pixel[] } | "previous" | undefined;
+  readonly labels?: ArrayLike<number> | undefined;
+  /** Lines across the limb; what each cuts off follows rigidly. */
+  readonly partitions: readonly (readonly [Pixel, Pixel])[];
+  /** The plane the gesture is reflected in. */
+  readonly mirror: { readonly normal: Vec3; readonly offset: number } | undefined;
+  readonly target: readonly Pixel[] | undefined;
+  /** The target is still being drawn. */
+  readonly unfinished: boolean;
+  /** Degrees, right-handed about the stroke. */
+  readonly twist: number;
+  readonly knots: Readonly<Record<Control, Knots>>;
+  readonly smooth: boolean;
+  readonly refine: boolean;
+  readonly morph: number;
+  /** The method that finishes it, or "" for the sketch as it is. */
+  readonly finish: string;
+}
+
+/** What each control does at rest; turning is shown as the difference from "as drawn". */
+export const restKnots: Readonly<Record<Control, Knots>> = {
+  turning: [0, 0, 0, 0, 0],
+  scale: [1, 1, 1, 1, 1],
+  twistSpeed: [0, 0.25, 0.5, 0.75, 1],
+};
+
+export function newSketch(camera: SketchCamera, reference: readonly Pixel[], like?: SketchDoc): SketchDoc {
+  return {
+    camera, reference, partitions: [], mirror: like?.mirror, target: undefined, unfinished: false, twist: 0, knots: restKnots,
+    smooth: like?.smooth ?? true, refine: false, morph: 1, finish: like?.finish ?? "",
+  };
+}
+
+export const sameKnots = (a: Knots, b: Knots): boolean => a.every((x, i) => x === b[i]);
+const atRest = (sketch: SketchDoc, control: Control) => sameKnots(sketch.knots[control], restKnots[control]);
+
+/** Whether anything has been done to the limb. */
+export const isPosed = (sketch: SketchDoc): boolean =>
+  sketch.target !== undefined || sketch.twist !== 0 || !atRest(sketch, "turning") || !atRest(sketch, "scale");
+
+/** A smooth curve through knots at equal steps (Catmull and Rom), at t from 0 to 1. */
+export function splineAt(knots: Knots, t: number): number {
+  const last = knots.length - 1;
+  const i = Math.min(last - 1, Math.floor(t * last));
+  const u = t * last - i;
+  const at = (k: number) => knots[Math.min(last, Math.max(0, k))]!;
+  const [a, b] = [at(i), at(i + 1)];
+  const [da, db] = [(b - at(i - 1)) / 2, (at(i + 2) - a) / 2];
+  return a + u * (da + u * (3 * (b - a) - 2 * da - db + u * (2 * (a - b) + da + db)));
+}
+
+const samples = 24;
+
+/** The control as the library takes it: turning is added to the straight line. */
+export function profileOf(control: Control, knots: Knots): Profile {
+  return Array.from({ length: samples + 1 }, (_, i) => {
+    const s = i / samples;
+    const value = splineAt(knots, s);
+    return [s, control === "turning" ? s + value : control === "scale" ? Math.max(0.05, value) : value] as const;
+  });
+}
+
+/** Thicker or thinner by `factor` from the place `s` on, smoothly from the held end. */
+export const scaledFrom = (s: number, factor: number): Knots =>
+  restKnots.scale.map((_, i) => {
+    const u = Math.min(1, i / 4 / Math.max(s, 0.25));
+    return 1 + (factor - 1) * u * u * (3 - 2 * u);
+  });
+
+const solve = { iterations: 300, tolerance: 1e-6 };
+
+/** The step of the edit script (contract, section 3); nothing that is at rest is named. */
+export function sketchStep(sketch: SketchDoc) {
+  const { camera, reference, region, partitions, mirror, target, twist, smooth, refine, morph, finish } = sketch;
+  const profile = (control: Control) => (atRest(sketch, control) ? {} : { [control]: { profile: profileOf(control, sketch.knots[control]) } });
+  return {
+    method: "sketch", camera, reference,
+    ...(region ? { region } : {}),
+    ...(partitions.length > 0 ? { partitions } : {}),
+    ...(mirror ? { mirror } : {}),
+    ...(target ? { bend: { target } } : {}),
+    ...(twist !== 0 ? { twist: { degrees: twist }, ...profile("twistSpeed") } : {}),
+    ...profile("scale"), ...profile("turning"),
+    smooth, morph,
+    ...(finish !== "" ? { finish: { method: finish, solve } } : { refine }),
+  };
+}
