@@ -178,6 +178,16 @@ describe("edge-material", () => {
     expect(dragged.state.result[0][2]).toBeLessThan(mesh.positions[2] - 0.1);
   });
 
+  it("lets only those parts fall that something holds", async () => {
+    const positions = Float64Array.of(...mesh.positions, ...mesh.positions.map((x, i) => (i % 3 === 2 ? x + 3 : x)));
+    const triangles = Uint32Array.of(...mesh.triangles, ...mesh.triangles.map((v) => v + 441));
+    const two = { positions, triangles };
+    const { state, report } = await edit<EdgeMaterialState>(two, cloth);
+    expect(state.floating).toEqual(Array.from({ length: 441 }, (_, v) => v + 441));
+    expect(Math.max(...state.result.slice(441).flat().map((x, i) => Math.abs(x - positions[3 * 441 + i])))).toBeLessThan(1e-9);
+    expect(report.energy.gravity / evaluateEdgeMaterial(state, two).gravity).toBeCloseTo(1, 9);
+  });
+
   it("remembers the normal of an edge that is folded flat, also in its state", async () => {
     const leaf = { positions: Float64Array.of(0, 0, 0, 0, 1, 0, 1, 0.5, 0, -1, 0.5, 0.6), triangles: Uint32Array.of(0, 2, 1, 0, 1, 3) };
     const book = pliant.shape(leaf);

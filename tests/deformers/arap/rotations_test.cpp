@@ -60,6 +60,24 @@ TEST_CASE("rotations: nothing to go by gives the identity, a line gives a rotati
   CHECK(line(0, 0) == doctest::Approx(1.0));
 }
 
+TEST_CASE("rotations: neighbourhoods of a single edge, whose minors are rounding") {
+  test::Random random(5);
+  Rotations s(9, 2000);
+  Points from(3, s.cols()), to(3, s.cols());
+  for (Index i = 0; i < s.cols(); ++i) {
+    from.col(i) = random.vector(3);
+    to.col(i) = random.vector(3);
+    s.col(i) = (to.col(i) * from.col(i).transpose()).eval().reshaped();
+  }
+  const Rotations r = fitted(s);
+  for (Index i = 0; i < s.cols(); ++i) {
+    const Eigen::Matrix3d turn = r.col(i).reshaped(3, 3);
+    CHECK((turn * turn.transpose()).isIdentity(1e-9));
+    CHECK(turn.determinant() == doctest::Approx(1.0));
+    CHECK((turn * from.col(i).normalized() - to.col(i).normalized()).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("rotations: planar ones turn about z only, mirrored neighbourhoods included") {
   Rotations s(9, 2);
   s.col(0) =

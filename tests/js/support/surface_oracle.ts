@@ -19,6 +19,8 @@ export interface ArapState extends SurfaceState {
 export interface EdgeMaterialState extends SurfaceState {
   edges: { i: number; j: number; l: number; m: number; alpha: number; beta: number; rho: number; sigma: number; kappa: number }[];
   weights: { lambda: number; mu: number; pStretch: number; pBend: number; gravity: number[] };
+  /** Vertices that gravity does not act on. */
+  floating: number[];
   /** Edges whose triangles cancel: their normals from before. */
   folded: { edge: number; normal: number[] }[];
 }
@@ -107,7 +109,7 @@ const across = ({ i, j, l, m, alpha, beta }: Hinge, points: Vector[]) =>
   points[i].map((x, k) => alpha * x + (1 - alpha) * points[j][k] - beta * points[l][k] - (1 - beta) * points[m][k]);
 
 /** Eq. 5-9, each term without its weight, and their weighted sum. */
-export function evaluateEdgeMaterial({ edges, weights, folded, result }: EdgeMaterialState, mesh: Mesh) {
+export function evaluateEdgeMaterial({ edges, weights, floating, folded, result }: EdgeMaterialState, mesh: Mesh) {
   const rest = restOf(mesh);
   const normals = edgeNormals(mesh, result);
   for (const { edge, normal } of folded) normals.set(key(edges[edge].i, edges[edge].j), normal);
@@ -118,7 +120,8 @@ export function evaluateEdgeMaterial({ edges, weights, folded, result }: EdgeMat
     if (l < 0) continue;
     bend += kappa * squared(minus(across(edge, result), normals.get(key(i, j))!.map((n) => sigma * n)));
   }
-  const gravity = -rest.reduce((sum, p, v) => sum + dot(weights.gravity, minus(result[v], p)), 0);
+  const free = new Set(floating);
+  const gravity = -rest.reduce((sum, p, v) => sum + (free.has(v) ? 0 : dot(weights.gravity, minus(result[v], p))), 0);
   const { lambda, mu, pStretch, pBend } = weights;
   return { stretch, bend, gravity, constraint: 0, total: lambda * pStretch * stretch + mu * pBend * bend + gravity };
 }

@@ -58,7 +58,10 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
       r[3 * c + k] = inverse * ((kappa + 1.0) * s[3 * c + k] + root * cofactor[3 * c + k] - cubic);
     }
   }
-  return zeta / (root * root * root);
+  // Where all minors are rounding a Newton step may leave the range of sums of singular values,
+  // 1 to the square root of 3.
+  const Vec2 gap = zeta / (root * root * root);
+  return Vec2{std::abs(root[0]) < 2.0 ? gap[0] : 0.0, std::abs(root[1]) < 2.0 ? gap[1] : 0.0};
 }
 
 void fit_planar(const double* s, double* r) {

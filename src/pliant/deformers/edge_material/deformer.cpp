@@ -119,6 +119,10 @@ State EdgeMaterial::save() const {
   add_scalar("weights/pStretch", w.p_stretch);
   add_scalar("weights/pBend", w.p_bend);
   state.add("weights/gravity", 1, false).data = {w.pull.x(), w.pull.y(), w.pull.z()};
+  StateTable& floating = state.add("floating", 1, true);
+  for (Index v = 0; v < shape().input_size(); ++v) {
+    if (!impl_->model.anchored(shape().point_of_vertex()[v])) floating.data.push_back(v);
+  }
   const std::vector<Index> folded = impl_->model.folded(point_positions());
   state.add("folded/edge", 1, true).data.assign(folded.begin(), folded.end());
   StateTable& normals = state.add("folded/normal", 3, false);
@@ -147,8 +151,7 @@ Status EdgeMaterial::restore(const State& state) {
   }
   if (Status s = LocalGlobalDeformer::restore(state); !s.ok()) return s;
   for (std::size_t k = 0; k < folded.size(); ++k) {
-    impl_->model.set_normal(static_cast<Index>(folded[k]),
-                            Eigen::Vector3d(&normals->data[3 * k]));
+    impl_->model.set_normal(static_cast<Index>(folded[k]), Eigen::Vector3d(&normals->data[3 * k]));
   }
   return {};
 }

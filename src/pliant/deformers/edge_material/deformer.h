@@ -34,8 +34,8 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   Energy energy() const override;
   /// edges/i, j, l, m (-1: no bending term), alpha, beta, rho, sigma, kappa; weights/lambda,
   /// weights/mu, weights/pStretch, weights/pBend, weights/gravity (the force on a vertex);
-  /// folded/edge, folded/normal: edges so folded that they have no normal of their own; result;
-  /// handles.
+  /// floating: vertices of parts that nothing holds, on which gravity does not act; folded/edge,
+  /// folded/normal: edges so folded that they have no normal of their own; result; handles.
   State save() const override;
   /// Needs `result`; takes the normals of `folded` where it is there.
   Status restore(const State& state) override;

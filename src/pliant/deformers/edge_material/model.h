@@ -53,6 +53,8 @@ class EdgeMaterialModel final : public LocalModel {
   std::vector<Index> folded(const Points& x) const;
   Eigen::Vector3d normal(Index element) const { return normals_.col(element); }
   void set_normal(Index element, const Eigen::Vector3d& normal) { normals_.col(element) = normal; }
+  /// Whether gravity acts on a point.
+  bool anchored(Index point) const { return anchored_[point]; }
   /// Unweighted terms of the last evaluation.
   double stretch() const { return stretch_; }
   double bend() const { return bend_; }
