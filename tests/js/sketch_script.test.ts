@@ -3,6 +3,7 @@
 import { describe, expect, it } from "vitest";
 import { arc, camera, curved, limb, longArc, pixel, straight, twoLimbs } from "./support/limb.js";
 import { entries, errorOf, pliant } from "./support/package.js";
+import { sheet } from "./support/shapes.js";
 
 const mesh = limb();
 const shape = pliant.shape(mesh);
@@ -217,7 +218,7 @@ describe("a wrong sketch step", () => {
     ["a twist without degrees", { ...base, twist: {} }, "steps[0].twist.degrees", "undefined"],
     ["a twist in radians", { ...base, twist: { radians: 3 } }, "steps[0].twist.radians", "degrees"],
     ["an endless twist", { ...base, twist: { degrees: Infinity } }, "steps[0].twist.degrees", "Infinity"],
-    ["a twist beside the limb", { ...base, reference: curved(0.2, 0.2, 0.6, () => 0), twist: { degrees: 30 } }, "steps[0]"],
+    ["a twist beside the limb", { ...base, reference: curved(0.2, 0.2, 0.6, () => 0), twist: { degrees: 30 } }, "steps[0].twist: reference meets the shape"],
     ["an empty profile", { ...base, scale: { profile: [] } }, "steps[0].scale.profile", "empty"],
     ["a profile beyond the stroke", { ...base, scale: { profile: [[0, 1], [2, 1]] } }, "steps[0].scale: profile[1]", "s from 0 to 1"],
     ["a profile backwards", { ...base, scale: { profile: [[1, 1], [0, 1]] } }, "steps[0].scale: profile[1]", "not below"],
@@ -256,6 +257,17 @@ describe("a wrong sketch step", () => {
     expect((await errorOf(() => run([bend], points))).message).toContain("no triangles");
     const plane = pliant.shape({ positions: [0, 0, 1, 0, 0, 1], triangles: [0, 1, 2], dimension: 2 });
     expect((await errorOf(() => run([bend], plane))).message).toContain("in the plane");
+  });
+
+  it("twists and scales only what has a front and a back", async () => {
+    const { positions: flat, triangles } = sheet(11);
+    const positions = flat.map((_, i) => [flat[i] - 0.5, flat[i + 1], flat[i - 1]][i % 3]); // upright before the camera
+    const open = pliant.shape({ positions, triangles });
+    for (const asked of [{ twist: { degrees: 10 } }, { scale: { profile: [[0, 2]] } }]) {
+      const { code, message } = await errorOf(() => run([{ ...base, ...asked }], open));
+      expect([code, message]).toEqual(["invalid-script", expect.stringContaining("meets the shape only once at pixel")]);
+    }
+    expect(difference((await run([bend], open)).positions, positions)).toBeGreaterThan(0.1);
   });
 
   it("leaves nothing behind: the next correct one works", async () => {
