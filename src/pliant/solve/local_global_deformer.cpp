@@ -83,6 +83,8 @@ struct LocalGlobalDeformer::Core {
   bool matrix_changed = false;
   bool targets_changed = true;
   int iteration = 0;
+  /// E where the model was evaluated last at x and nothing has changed since.
+  std::optional<double> energy_at_x;
   /// The motion a handle had when the targets were last taken; empty: moved by targets.
   std::map<HandleId, std::optional<Motion>> applied;
 
@@ -224,18 +226,28 @@ LocalGlobalDeformer::LocalGlobalDeformer(std::shared_ptr<const Shape> shape)
 }
 LocalGlobalDeformer::~LocalGlobalDeformer() = default;
 
-void LocalGlobalDeformer::constraints_changed() { core_->pattern_changed = true; }
-void LocalGlobalDeformer::targets_changed() { core_->targets_changed = true; }
-void LocalGlobalDeformer::pattern_changed() { core_->pattern_changed = true; }
-void LocalGlobalDeformer::matrix_changed() { core_->matrix_changed = true; }
+void LocalGlobalDeformer::constraints_changed() { pattern_changed(); }
+void LocalGlobalDeformer::targets_changed() {
+  core_->targets_changed = true;
+  core_->energy_at_x.reset();
+}
+void LocalGlobalDeformer::pattern_changed() {
+  core_->pattern_changed = true;
+  core_->energy_at_x.reset();
+}
+void LocalGlobalDeformer::matrix_changed() {
+  core_->matrix_changed = true;
+  core_->energy_at_x.reset();
+}
 void LocalGlobalDeformer::energy_changed() {
+  core_->energy_at_x.reset();
   core_->solver.restart();
   core_->solver.forget();
 }
 
 void LocalGlobalDeformer::set_constraint_weight(std::optional<double> weight) {
   if (weight == core_->weight) return;
-  (weight && core_->weight ? core_->matrix_changed : core_->pattern_changed) = true;
+  weight && core_->weight ? matrix_changed() : pattern_changed();
   core_->weight = weight;
 }
 
@@ -249,6 +261,7 @@ void LocalGlobalDeformer::do_reset() {
 
 Result<StepReport> LocalGlobalDeformer::do_step(double tolerance) {
   Core& core = *core_;
+  core.energy_at_x.reset();
   if (core.pattern_changed) {
     if (Status s = core.set_up(*this); !s.ok()) return s;
   } else if (core.matrix_changed) {
@@ -261,13 +274,18 @@ Result<StepReport> LocalGlobalDeformer::do_step(double tolerance) {
   const auto outcome = core.solver.step(model, core.x, tolerance, diagonal,
                                         kNoise * model.stiffness() * diagonal * diagonal);
   if (outcome.accepted) ++core.iteration;
+  if (outcome.accepted && !core.weight) core.energy_at_x = core.solver.energy();
   return StepReport{core.iteration, core.solver.energy(), outcome.accepted, outcome.converged};
 }
 
 LocalGlobalDeformer::Terms LocalGlobalDeformer::evaluate_terms() const {
+  Terms terms;
+  if (core_->energy_at_x) {
+    terms.model = *core_->energy_at_x;
+    return terms;
+  }
   Points unused;
   const Points x = core_->constrained(*this);
-  Terms terms;
   terms.model = model().evaluate(x, unused);
   if (!core_->weight) return terms;
   for (const Handle& handle : handles()) {
