@@ -88,9 +88,9 @@ export class Packed {
   pose(place: Place, value: unknown): this {
     const pose = fields(place, value, ["heading", "turns", "length", "twist", "scale"]);
     for (const key of ["heading", "length"] as const) this.doubles.push(finite(place.at(key), pose[key]));
-    const turns = Array.from(list(place.at("turns"), pose.turns), (turn, i) => finite(place.at("turns").item(i), turn));
+    const turns = list(place.at("turns"), pose.turns);
     this.integers.push(turns.length);
-    this.doubles.push(...turns);
+    for (let i = 0; i < turns.length; ++i) this.doubles.push(finite(place.at("turns").item(i), turns[i]));
     return this.pairs(place.at("twist"), pose.twist).pairs(place.at("scale"), pose.scale);
   }
 }

@@ -305,6 +305,7 @@ describe("wrong calls of a sketch", () => {
     ["smooth by text", () => sketch.setSmooth("yes" as never), "invalid-option", "smooth"],
     ["no pose", () => sketch.setPose(undefined as never), "invalid-option", "pose", "undefined"],
     ["a pose of another curve", () => sketch.setPose({ ...sketch.pose(), turns: [1] }), "invalid-option", "pose.turns", "length 1"],
+    ["an endless pose", () => sketch.setPose({ ...sketch.pose(), turns: Array(1_000_000).fill(0) }), "invalid-option", "pose.turns", "length 1000000"],
     ["a pose without length", () => sketch.setPose({ ...sketch.pose(), length: 0 }), "invalid-option", "pose"],
     ["a pose nowhere", () => sketch.setPose({ ...sketch.pose(), heading: NaN }), "invalid-option", "pose.heading", "NaN"],
     ["a pose toward another curve", () => sketch.setPose(sketch.pose(), { ...sketch.pose(), turns: [1] }, 0.5), "invalid-option", "toward.turns"],
