@@ -4,14 +4,13 @@ import { defaultOptions, methodOf, type Options, type OptionValue } from "../met
 import { Meter, type Measures } from "../shapes/measure.ts";
 import { normalsOf } from "../shapes/normals.ts";
 import { refinedShape } from "../shapes/refined.ts";
-import { carry, ridersOf, type Rider } from "../shapes/riders.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import { topologyOf, type Topology } from "../shapes/topology.ts";
 import { SolverClient, type Frame } from "../solver/client.ts";
 import type { ShapeReport, State, StepReport } from "../solver/pliant.ts";
 import type { SketchFrame } from "../solver/sketch_client.ts";
 import {
-  backAtRest, editScript, freshGrab, hasMoved, makeHandle, onTop, presentStep, recorded, riderStep, startingDoc, withConstraints, withMotion, type Change, type Doc,
+  backAtRest, editScript, freshGrab, hasMoved, makeHandle, onTop, presentStep, recorded, startingDoc, withConstraints, withMotion, type Change, type Doc,
   type HandleDoc,
 } from "./document.ts";
 import { History } from "./history.ts";
@@ -19,8 +18,8 @@ import { bestMotion, type Motion } from "./motion.ts";
 import { Calm } from "./calm.ts";
 import { shared } from "./share.ts";
 import { freshId, heldStill, stillIn, withoutHeld } from "./still.ts";
-import { freeRiders } from "./free_riders.ts";
-import { isPosed, newSketch, type Pixel, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
+import { Riding } from "./riding.ts";
+import { isPosed, newSketch, seenAgain, type Pixel, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
 
 /** A moment to go back to. The deformation is absent at rest and until the solver has told it. */
 interface Moment {
@@ -46,9 +45,7 @@ export class Session {
   /** What the solver's deformer was built from. */
   private built: Pick<Doc, "shape" | "method" | "options"> | undefined;
   private readonly calm = new Calm();
-  /** Loose parts of the shape, and those that nothing holds. */
-  private riders: Rider[] = [];
-  private free: Rider[] = [];
+  private readonly riding = new Riding();
 
   doc!: Doc;
   /** What the limb under strokes looks like; absent while handles work. */
@@ -149,13 +146,7 @@ export class Session {
   lookAgain(camera: SketchCamera, reference: readonly Pixel[], label: string): Promise<boolean> {
     return this.move(async () => {
       const [old, labels] = [this.doc.sketch!, this.sketched!.labels];
-      const doc = await this.finished();
-      const sketch = { ...newSketch(camera, reference, old), mirror: old.mirror };
-      if (old.mirror) return { ...doc, sketch }; // both regions are chosen anew
-      if (isPosed(old) && old.refine) return { ...doc, sketch };
-      if (isPosed(old)) return { ...doc, sketch: { ...sketch, region: "previous", labels } };
-      const region = old.region ?? { camera: old.camera, reference: old.reference };
-      return { ...doc, sketch: { ...sketch, region, labels: old.labels, partitions: old.partitions } };
+      return { ...(await this.finished()), sketch: seenAgain(old, labels, camera, reference) };
     }, label);
   }
 
@@ -189,28 +180,18 @@ export class Session {
 
   /** The document with the present step among the finished ones, if it did anything. */
   private async finished(): Promise<Doc> {
+    await this.solver.halt();
     const { doc } = this;
     const step = presentStep(doc);
-    const still = { ...doc, sketch: undefined };
-    if (!step || (!doc.sketch && !this.sketchable)) return still;
+    if (!step || (!doc.sketch && !this.sketchable)) return { ...doc, sketch: undefined };
     const exact = await this.exact();
-    const riding = carry(this.free, doc.shape.exact ?? doc.shape.positions, exact);
-    const steps = riding.length > 0 ? [step, riderStep(riding, exact)] : [step];
+    const steps = [step, ...this.riding.steps(doc, exact)];
     return onTop(doc, { ...this.shown, positions: Float32Array.from(exact), exact }, steps);
   }
 
   /** The session as an edit script: replaying it gives the shape on the screen. */
   script(): ReturnType<typeof editScript> {
-    const riding = carry(this.free, this.doc.shape.positions, this.positions.slice());
-    return editScript(this.doc, riding.length > 0 ? [riderStep(riding, this.positions)] : []);
-  }
-
-  private findFree(): void {
-    this.free = freeRiders(this.riders, this.doc, this.sketched?.labels);
-  }
-
-  private ride(): void {
-    carry(this.free, this.doc.shape.positions, this.positions, this.normals);
+    return editScript(this.doc, this.riding.steps(this.doc, this.positions.slice()));
   }
 
   private async exact(): Promise<Float64Array> {
@@ -230,8 +211,8 @@ export class Session {
     } finally {
       this.busy = false;
     }
-    this.findFree();
-    carry(this.free, this.doc.shape.positions, this.positions);
+    this.riding.find(this.doc, this.sketched?.labels);
+    this.riding.carry(this.doc, this.positions);
     this.normals = normalsOf(this.positions, this.doc.shape.triangles, this.topology);
   }
 
@@ -239,8 +220,8 @@ export class Session {
     this.sketched = frame;
     this.shown = refinedShape(this.doc.shape, frame.refinement);
     Object.assign(this, { positions: frame.positions, normals: frame.normals });
-    this.findFree();
-    this.ride();
+    this.riding.find(this.doc, this.sketched?.labels);
+    this.riding.carry(this.doc, this.positions, this.normals);
     if (tell) this.events.frame();
   }
 
@@ -281,7 +262,7 @@ export class Session {
   private constrain(change: Partial<Pick<Doc, "fixed" | "handles">>): Promise<boolean> {
     this.doc = withConstraints(this.doc, change);
     const doc = this.doc;
-    this.findFree();
+    this.riding.find(this.doc, this.sketched?.labels);
     this.events.change();
     return this.exclusive(async () => {
       await this.prepare(this.doc);
@@ -407,9 +388,9 @@ export class Session {
     if (!fresh && !deformation) await this.solver.restore(undefined);
     await this.solver.constrain(doc.fixed, doc.handles);
     if (deformation) await this.solver.restore(deformation);
-    this.findFree();
+    this.riding.find(this.doc, this.sketched?.labels);
     Object.assign(this, await this.solver.look());
-    this.ride();
+    this.riding.carry(this.doc, this.positions, this.normals);
   }
 
   /** A deformer for the document; whether it is a new one. */
@@ -425,7 +406,7 @@ export class Session {
     const first = opened !== (this.doc as Doc | undefined)?.opened;
     this.report = report;
     this.topology = topologyOf(shape);
-    this.riders = ridersOf(shape, this.topology);
+    this.riding.take(shape, this.topology);
     if (!first && this.meter) return;
     const closed = opened.triangles.length > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;
     this.meter = new Meter(opened, shape === opened ? this.topology : topologyOf(opened), closed);
@@ -454,7 +435,7 @@ export class Session {
     const before = this.positions;
     this.positions = frame.positions;
     this.normals = frame.normals;
-    this.ride();
+    this.riding.carry(this.doc, this.positions, this.normals);
     this.calm.saw(before, this.positions, frame.report.converged);
     this.state = frame.state;
     this.step = frame.report;

@@ -62,6 +62,15 @@ export function newSketch(camera: SketchCamera, reference: readonly Pixel[], lik
   };
 }
 
+/** A limb at rest seen through another camera, by the curve it lies on; `labels`: its region. */
+export function seenAgain(old: SketchDoc, labels: ArrayLike<number>, camera: SketchCamera, reference: readonly Pixel[]): SketchDoc {
+  const fresh = newSketch(camera, reference, old);
+  if (old.mirror || (isPosed(old) && old.refine)) return fresh; // the region is chosen anew
+  if (isPosed(old)) return { ...fresh, region: "previous", labels };
+  const region = old.region ?? { camera: old.camera, reference: old.reference };
+  return { ...fresh, region, labels: old.labels, partitions: old.partitions };
+}
+
 export const sameKnots = (a: Knots, b: Knots): boolean => a.every((x, i) => x === b[i]);
 const atRest = (sketch: SketchDoc, control: Control) => sameKnots(sketch.knots[control], restKnots[control]);
 

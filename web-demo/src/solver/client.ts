@@ -180,6 +180,12 @@ export class SolverClient {
     return this.exclusive(() => this.deformer!.positions(new Float64Array(this.data!.positions.length)));
   }
 
+  /** Ends the stepping; what has been stepped is told before this resolves. */
+  halt(): Promise<void> {
+    this.stop();
+    return this.exclusive(async () => {});
+  }
+
   private stop(): void {
     this.pending.clear();
     this.pendingOptions = undefined;

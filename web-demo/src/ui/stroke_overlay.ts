@@ -62,6 +62,8 @@ export class StrokeOverlay {
     if (asHinted) this.ghost.setAttribute("d", line(curve ? to! : from!));
     this.coach.firstElementChild!.textContent = curve ? "Now draw where it should go" : "Draw along here";
     const at = !curve ? from![Math.floor(from!.length / 2)]! : asHinted ? to!.at(-1)! : curve[0]!;
-    this.coach.style.transform = `translate(calc(${at.x}px - 50%), ${at.y - 62}px)`;
+    const half = this.coach.offsetWidth / 2;
+    const x = Math.min(Math.max(at.x, half + 8), viewport.canvas.clientWidth - half - 8);
+    this.coach.style.transform = `translate(${x - half}px, ${at.y - 62}px)`;
   }
 }

@@ -1,0 +1,38 @@
+// Keeps loose parts on what they belong to (shapes/riders.ts), and tells the script about it.
+import { carry, ridersOf, type Rider } from "../shapes/riders.ts";
+import type { ShapeData } from "../shapes/shape.ts";
+import type { Topology } from "../shapes/topology.ts";
+import { riderStep, type Doc } from "./document.ts";
+
+export class Riding {
+  private riders: Rider[] = [];
+  private free: Rider[] = [];
+
+  take(shape: ShapeData, topology: Topology): void {
+    this.riders = ridersOf(shape, topology);
+    this.free = [];
+  }
+
+  /** Those that ride: not where the method carries space, nor those held or drawn on themselves. `labels`: of the limb under strokes. */
+  find({ sketch, method, handles, fixed }: Doc, labels: ArrayLike<number> | undefined): void {
+    const carriesSpace = (sketch ? sketch.finish : method) === "embedded-graph";
+    if (carriesSpace || this.riders.length === 0) {
+      this.free = [];
+      return;
+    }
+    const held = new Set([...fixed, ...handles.flatMap((h) => [...h.vertices])]);
+    const taken = (v: number) => (sketch ? (labels?.[v] ?? 0) > 0 : held.has(v));
+    this.free = this.riders.filter((rider) => !rider.vertices.some(taken));
+  }
+
+  /** Moves them, in place. */
+  carry({ shape }: Doc, positions: Float32Array, normals?: Float32Array): void {
+    carry(this.free, shape.positions, positions, normals);
+  }
+
+  /** The same, as steps of the script: one, or none where nothing rides. */
+  steps({ shape }: Doc, positions: Float32Array | Float64Array): object[] {
+    const moved = carry(this.free, shape.exact ?? shape.positions, positions);
+    return moved.length > 0 ? [riderStep(moved, positions)] : [];
+  }
+}
