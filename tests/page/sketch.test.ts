@@ -227,6 +227,30 @@ test("morph, smoothing, refinement, mirror and the curves", async () => {
   expect(await ask((hook) => hook.limb())).toBeDefined();
 });
 
+test("a line across the limb makes what lies beyond it rigid; a solver finishes the pose", async () => {
+  demo = await openDemo(browser, server.address);
+  await stroke(arm);
+  const before = (await limb()).labels;
+  const [wrist] = await onPage([[-0.74, 1.03, 0.2]]);
+  await demo.page.keyboard.press("c");
+  await demo.drag({ x: wrist!.x - 12, y: wrist!.y - 60 }, { x: wrist!.x + 12, y: wrist!.y + 60 });
+  const { labels } = await limb();
+  const rigid = labelled(labels, (label) => label >= 2);
+  expect(rigid.length).toBeGreaterThan(2 * labelled(before, (label) => label >= 2).length);
+  await demo.page.keyboard.press("b");
+  await stroke(up);
+  const sketched = await demo.positions();
+  await demo.page.locator("#finish").selectOption("arap");
+  await demo.idle();
+  const finished = await demo.positions();
+  expect(farthest(sketched, finished, rigid)).toBeLessThan(1e-5 * (await diagonal())); // the handle
+  expect(farthest(sketched, finished)).toBeGreaterThan(1e-4 * (await diagonal()));
+  expect(farthest(await replayed(), finished)).toBeLessThan(1e-6 * (await diagonal()));
+  await demo.page.keyboard.press("Control+z");
+  await demo.idle();
+  expect(farthest(sketched, await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
+});
+
 test("a pen draws with all its samples; the palm beside it does nothing", async () => {
   demo = await openDemo(browser, server.address, { hasTouch: true });
   const client = await demo.page.context().newCDPSession(demo.page);

@@ -39,7 +39,7 @@ export class LimbPanel {
     this.check("refine", (refine) => void session.pose({ refine }));
     this.check("keep-length", (on) => (tool.keepsLength = on));
     this.check("mirror", (on) => this.setMirror(on));
-    this.finish.append(make("option", { value: "" }, "Nothing"), ...finishers.map((id) => make("option", { value: id }, methodOf(id).label)));
+    this.finish.append(make("option", { value: "" }, "Nothing"), ...Object.entries(finishers).map(([value, label]) => make("option", { value, title: methodOf(value).help }, label)));
     this.finish.addEventListener("change", () => void session.pose({ finish: this.finish.value }));
     for (const control of controls) this.addSpline(control);
   }
