@@ -128,11 +128,12 @@ void forward_row(const double* panel, int rows, int row, int limit, double* y) {
 template <int Columns>
 void forward_tile(const double* panel, int rows, int row, int limit, double* y) {
   Vec2 sum[2][Columns] = {};
-  const double* l = panel + row;
-  for (int k = 0; k < limit; ++k, l += rows) {
+  const double *l = panel + row, *known[Columns];
+  for (int c = 0; c < Columns; ++c) known[c] = y + static_cast<std::ptrdiff_t>(c) * rows;
+  for (std::ptrdiff_t k = 0; k < limit; ++k, l += rows) {
     const Vec2 l0 = load2(l), l1 = load2(l + 2);
     for (int c = 0; c < Columns; ++c) {
-      const Vec2 x = splat2(y[c * rows + k]);
+      const Vec2 x = splat2(known[c][k]);
       sum[0][c] += l0 * x;
       sum[1][c] += l1 * x;
     }
@@ -149,13 +150,14 @@ template <int Columns>
 void backward_pair(const double* panel, int rows, int column, int from, const double* y,
                    double (&sum)[2][Columns]) {
   const double* a = panel + static_cast<std::ptrdiff_t>(column) * rows;
-  const double* b = a + rows;
+  const double *b = a + rows, *known[Columns];
+  for (int c = 0; c < Columns; ++c) known[c] = y + static_cast<std::ptrdiff_t>(c) * rows;
   Vec2 partial[2][Columns] = {};
-  int i = from;
+  std::ptrdiff_t i = from;
   for (; i + 2 <= rows; i += 2) {
     const Vec2 la = load2(a + i), lb = load2(b + i);
     for (int c = 0; c < Columns; ++c) {
-      const Vec2 yi = load2(y + c * rows + i);
+      const Vec2 yi = load2(known[c] + i);
       partial[0][c] += la * yi;
       partial[1][c] += lb * yi;
     }
@@ -164,8 +166,8 @@ void backward_pair(const double* panel, int rows, int column, int from, const do
     sum[0][c] = partial[0][c][0] + partial[0][c][1];
     sum[1][c] = partial[1][c][0] + partial[1][c][1];
     if (i < rows) {
-      sum[0][c] += a[i] * y[c * rows + i];
-      sum[1][c] += b[i] * y[c * rows + i];
+      sum[0][c] += a[i] * known[c][i];
+      sum[1][c] += b[i] * known[c][i];
     }
   }
 }

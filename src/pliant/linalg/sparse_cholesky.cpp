@@ -96,8 +96,7 @@ Adjacency column_structure(const Adjacency& adjacency, const std::vector<Index>&
 /// fronts cost more in overhead than in arithmetic.
 bool worth_merging(double width, double zeros, double total) {
   const double share = zeros / total;
-  return width <= 1 || (width <= 4 && share < 0.4) || (width <= 16 && share < 0.15) ||
-         share < 0.05;
+  return width <= 1 || (width <= 4 && share < 0.4) || (width <= 16 && share < 0.15) || share < 0.05;
 }
 
 }  // namespace
@@ -356,13 +355,19 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
   return {};
 }
 
-template <int Columns>
+/// std::copy_n for a few numbers: a call of memmove would take longer than they do.
+inline double* copy_block(const double* from, std::size_t n, double* to) {
+  for (std::size_t i = 0; i < n; ++i) to[i] = from[i];
+  return to + n;
+}
+
+template <int Columns, int Block>
 void SparseCholesky::solve_some(double* x) {
   const std::size_t n = static_cast<std::size_t>(rows());
-  const std::size_t b = block_;
+  const std::size_t b = Block > 0 ? Block : block_;
   for (int c = 0; c < Columns; ++c) {
     for (Index j = 0; j < nodes_; ++j) {
-      std::copy_n(x + c * n + j * b, b, gathered_.data() + c * n + position_[j] * b);
+      copy_block(x + c * n + j * b, b, gathered_.data() + c * n + position_[j] * b);
     }
   }
   double* z = gathered_.data();
@@ -388,7 +393,7 @@ void SparseCholesky::solve_some(double* x) {
     for (int c = 0; c < Columns; ++c) {
       std::copy_n(z + c * n + node->first * b, columns, y + c * height);
       double* below = y + c * height + columns;
-      for (Index row : node->rows) below = std::copy_n(z + c * n + row * b, b, below);
+      for (Index row : node->rows) below = copy_block(z + c * n + row * b, b, below);
     }
     dense::backward_panel<Columns>(factor_.data() + node->factor, static_cast<int>(height),
                                    static_cast<int>(columns), y);
@@ -397,7 +402,7 @@ void SparseCholesky::solve_some(double* x) {
   }
   for (int c = 0; c < Columns; ++c) {
     for (Index j = 0; j < nodes_; ++j) {
-      std::copy_n(gathered_.data() + c * n + position_[j] * b, b, x + c * n + j * b);
+      copy_block(gathered_.data() + c * n + position_[j] * b, b, x + c * n + j * b);
     }
   }
 }
@@ -405,8 +410,16 @@ void SparseCholesky::solve_some(double* x) {
 void SparseCholesky::solve(double* x, int columns) {
   const std::size_t n = static_cast<std::size_t>(rows());
   int c = 0;
-  for (; c + 3 <= columns; c += 3) solve_some<3>(x + c * n);
-  for (; c < columns; ++c) solve_some<1>(x + c * n);
+  for (; c + 3 <= columns; c += 3) {
+    if (block_ == 1) {
+      solve_some<3, 1>(x + c * n);
+    } else if (block_ == 4) {
+      solve_some<3, 4>(x + c * n);
+    } else {
+      solve_some<3, 0>(x + c * n);
+    }
+  }
+  for (; c < columns; ++c) solve_some<1, 0>(x + c * n);
 }
 
 }  // namespace pliant

@@ -74,7 +74,8 @@ class SparseCholesky {
   /// Adds a child's update matrix to its parent's front: `panel` and, below it, `update`.
   void extend_add(const Supernode& child, const Supernode& parent, const double* source,
                   double* panel, double* update) const;
-  template <int Columns>
+  /// Block: block_ where the compiler may know it, else 0.
+  template <int Columns, int Block>
   void solve_some(double* x);
 
   int block_ = 1;
