@@ -1,6 +1,6 @@
 // The objects of pliant/worker: as those of the package, but every call is a promise.
 
-import { coordinates, type FloatArray, output, Place, vertexIds } from "../check.js";
+import { type FloatArray, Place, vertexIds } from "../check.js";
 import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deformer.js";
 import type { DeformerOptions, LiveOptions, MethodName } from "../methods/index.js";
 import type { MeasureOptions, Quality } from "../quality.js";
@@ -116,13 +116,13 @@ export class WorkerDeformer<M extends MethodName = MethodName> extends Remote {
   positions(): Promise<Float32Array>;
   positions<T extends FloatArray>(out: T): Promise<T>;
   positions(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, this.shape.report.vertices * this.shape.dimension, "positions");
+    return this.callInto(out, "positions");
   }
 
   normals(): Promise<Float32Array>;
   normals<T extends FloatArray>(out: T): Promise<T>;
   normals(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, this.shape.report.vertices * 3, "normals");
+    return this.callInto(out, "normals");
   }
 
   field(): Promise<Float32Array> {
@@ -132,9 +132,8 @@ export class WorkerDeformer<M extends MethodName = MethodName> extends Remote {
   transformPoints(points: Float32Array): Promise<Float32Array>;
   transformPoints(points: ArrayLike<number>): Promise<Float64Array>;
   transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): Promise<T>;
-  async transformPoints(points: ArrayLike<number>, out?: FloatArray): Promise<FloatArray> {
-    const { length } = coordinates(new Place("invalid-option", "points"), points, this.shape.dimension);
-    return this.#into(out, length, "transformPoints", points);
+  transformPoints(points: ArrayLike<number>, out?: FloatArray): Promise<FloatArray> {
+    return this.callInto(out, "transformPoints", points);
   }
 
   state(): Promise<State> {
@@ -151,16 +150,6 @@ export class WorkerDeformer<M extends MethodName = MethodName> extends Remote {
 
   dispose(): Promise<void> {
     return this.call("dispose");
-  }
-
-  /** Results for the caller's array, which stays on this side. */
-  async #into(out: FloatArray | undefined, length: number, method: string, ...args: unknown[]): Promise<FloatArray> {
-    if (out === undefined) return this.call(method, ...args);
-    const place = new Place("invalid-option", "out");
-    output(place, out, length, () => out);
-    const fresh = out instanceof Float64Array ? [{ doubles: length }] : [];
-    out.set(await this.call<FloatArray>(method, ...args, ...fresh));
-    return out;
   }
 
   /** An iterable does not travel. */

@@ -1,6 +1,6 @@
 // Sketches of pliant/worker.
 
-import { type FloatArray, output, Place } from "../check.js";
+import type { FloatArray } from "../check.js";
 import type { Camera, Profile, Refinement, Sketch, SketchPose, SketchSeed, SketchState, Stroke } from "../sketch.js";
 import type { Line } from "./line.js";
 import type { WorkerShape } from "./objects.js";
@@ -80,7 +80,7 @@ export class WorkerSketch extends Remote {
   parameters(): Promise<Float32Array>;
   parameters<T extends FloatArray>(out: T): Promise<T>;
   parameters(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, "parameters");
+    return this.callInto(out, "parameters");
   }
 
   reference(): Promise<Float64Array> {
@@ -94,19 +94,19 @@ export class WorkerSketch extends Remote {
   positions(): Promise<Float32Array>;
   positions<T extends FloatArray>(out: T): Promise<T>;
   positions(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, "positions");
+    return this.callInto(out, "positions");
   }
 
   restPositions(): Promise<Float32Array>;
   restPositions<T extends FloatArray>(out: T): Promise<T>;
   restPositions(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, "restPositions");
+    return this.callInto(out, "restPositions");
   }
 
   normals(): Promise<Float32Array>;
   normals<T extends FloatArray>(out: T): Promise<T>;
   normals(out?: FloatArray): Promise<FloatArray> {
-    return this.#into(out, "normals");
+    return this.callInto(out, "normals");
   }
 
   seed(options: { spacing?: number } = {}): Promise<SketchSeed> {
@@ -119,14 +119,5 @@ export class WorkerSketch extends Remote {
 
   dispose(): Promise<void> {
     return this.call("dispose");
-  }
-
-  /** Results for the caller's array, which stays on this side; refinement changes how long it must be. */
-  async #into(out: FloatArray | undefined, method: "parameters" | "positions" | "restPositions" | "normals"): Promise<FloatArray> {
-    const fresh = out instanceof Float64Array ? [{ doubles: out.length }] : [];
-    const result = await this.call<FloatArray>(method, ...fresh);
-    if (out === undefined) return result;
-    output(new Place("invalid-option", "out"), out, result.length, () => out).set(result);
-    return out;
   }
 }
