@@ -15,10 +15,8 @@ export interface ArapOptions {
   smoothness?: number;
 }
 
-type Read = Pick<ArapOptions, "energy" | "constraintWeight" | "smoothness">;
-
 function values(options: Options): [rims: boolean, constraintWeight: number, smoothness: number] {
-  const { energy, constraintWeight, smoothness } = options as Read;
+  const { energy, constraintWeight, smoothness } = options as Omit<ArapOptions, "method">;
   return [energy === "spokes-and-rims", constraintWeight ?? 0, smoothness ?? 0];
 }
 

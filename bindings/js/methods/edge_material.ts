@@ -38,13 +38,7 @@ export type MaterialField =
   | { geodesic: Selection | readonly number[] | Uint32Array };
 
 /** After reading: what is left out is undefined; points are in space. */
-interface Read {
-  stretch?: number;
-  lambda?: number;
-  bend?: number;
-  pStretch?: number;
-  pBend?: number;
-  gravity?: ArrayLike<number>;
+interface Read extends Omit<EdgeMaterialOptions, "method" | "field"> {
   field?: FieldRead | null;
 }
 
