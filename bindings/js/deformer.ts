@@ -6,8 +6,7 @@ import { PliantError } from "./errors.js";
 import { Handle } from "./handle.js";
 import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "./methods/index.js";
 import type { RawDeformer } from "./raw.js";
-import type { Extent } from "./selection.js";
-import { type Shape, shapeFor } from "./shape.js";
+import { extentOf, type Shape, shapeFor } from "./shape.js";
 import { readTables, type State, toState, writeTables } from "./state.js";
 
 /** What one iteration did. */
@@ -287,10 +286,6 @@ function copyPoints(from: FloatArray, to: FloatArray, at: number, dimension: num
     to[at] = from[i];
     to[at + 1] = from[i + 1];
   }
-}
-
-function extentOf(shape: Shape): Extent {
-  return { count: shape.report.vertices, dimension: shape.dimension };
 }
 
 function readTolerance(place: Place, { tolerance = 1e-6 }: Readonly<Record<string, unknown>>): number {

@@ -4,7 +4,7 @@ import { coordinates, fields, integer, list, Place } from "./check.js";
 import { build, type Core, disposeSymbol, Owned } from "./core.js";
 import { PliantError } from "./errors.js";
 import type { RawShape } from "./raw.js";
-import { readSelection, selectedIds, type Selection } from "./selection.js";
+import { type Extent, readSelection, selectedIds, type Selection } from "./selection.js";
 
 /** A mesh, a polygon soup, points, or a picture in the plane. */
 export interface ShapeInput {
@@ -54,6 +54,11 @@ export function shapeFor(core: Core, value: unknown): Shape {
   throw new PliantError("disposed", "this shape belongs to a library that has stopped; expected one of this library");
 }
 
+/** What options and selections for a shape are checked against. */
+export function extentOf({ report: { vertices }, dimension }: Shape): Extent {
+  return { count: vertices, dimension };
+}
+
 /** A shape at rest. It does not change; deformers are built over it and live on without it. */
 export class Shape {
   readonly report: Readonly<ShapeReport>;
@@ -81,8 +86,7 @@ export class Shape {
   /** The selected vertices, ascending. Errors: invalid-option, also where nothing is selected. */
   select(selection: Selection): Uint32Array {
     const place = new Place("invalid-option", "selection");
-    const extent = { count: this.report.vertices, dimension: this.dimension };
-    return Uint32Array.from(selectedIds(place, readSelection(place, selection, extent), this.#inside.rest));
+    return Uint32Array.from(selectedIds(place, readSelection(place, selection, extentOf(this)), this.#inside.rest));
   }
 
   /** Frees its memory; deformers built over it stay. */

@@ -8,7 +8,7 @@ import type { Pliant } from "../pliant.js";
 import { readScript, type ScriptPlan } from "../script/read.js";
 import { type FinishedEdit, reportOf, runFrames } from "../script/run.js";
 import type { EditProgress, EditReport } from "../script/types.js";
-import type { Shape } from "../shape.js";
+import { extentOf, type Shape } from "../shape.js";
 import { Failure, onFile } from "./failure.js";
 import { ShapeRewriter } from "./io.js";
 import { parseJson } from "./json.js";
@@ -67,7 +67,7 @@ function checkCarries(path: string, { keyframes: [{ steps }] }: ScriptPlan): voi
 async function readPlan(path: string, shape: Shape): Promise<ScriptPlan> {
   return onFile(path, async () => {
     const script = parseJson(path, await readFile(path, "utf8"));
-    return readScript(script, { count: shape.report.vertices, dimension: shape.dimension });
+    return readScript(script, extentOf(shape));
   });
 }
 

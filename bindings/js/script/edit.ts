@@ -1,12 +1,12 @@
 // `pliant.edit`, loaded when it is first called.
 
 import type { Core } from "../core.js";
-import type { Shape } from "../shape.js";
+import { extentOf, type Shape } from "../shape.js";
 import { readScript } from "./read.js";
 import { runScript } from "./run.js";
 import type { EditOptions, EditResult, EditScript } from "./types.js";
 
 export function edit(core: Core, shape: Shape, script: EditScript, options: EditOptions): Promise<EditResult> {
-  const plan = readScript(script, { count: shape.report.vertices, dimension: shape.dimension });
+  const plan = readScript(script, extentOf(shape));
   return runScript(core, shape, plan, options);
 }
