@@ -1,10 +1,10 @@
 // Editing by two strokes: one over a limb, a second where it should go.
 
-import { fields, finite, flag, type FloatArray, integer, list, output, Place } from "./check.js";
+import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, output, Place } from "./check.js";
 import { build, type Core, disposeSymbol, Owned } from "./core.js";
-import type { RawSketch } from "./raw.js";
+import type { RawScratch, RawSketch, RawStatus } from "./raw.js";
 import { insideOf, type Shape, shapeFor } from "./shape.js";
-import { type Camera, type Mirror, Packed, type Profile, readSpacing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
+import { type Camera, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
 import { readTables, toState } from "./state.js";
 
 export type { Camera, Mirror, Profile, SketchPose, Stroke };
@@ -71,6 +71,8 @@ export interface SketchState {
 }
 
 const defaultMaxAdded = 1_000_000;
+
+type PackedCall = (raw: RawSketch, scratch: RawScratch) => RawStatus;
 
 /**
  * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
@@ -147,7 +149,7 @@ export class Sketch {
 
   /** Shows the way from rest (0) to the pose (1) by lengths and angles. Errors: invalid-option. */
   morph(t: number): void {
-    const share = finite(option("morph"), t, "a number from 0 to 1");
+    const share = fraction(option("morph"), t);
     this.#owned.accept((raw) => raw.setMorph(share));
   }
 
@@ -161,8 +163,7 @@ export class Sketch {
     const packed = new Packed().pose(option("pose"), pose);
     const two = toward !== undefined;
     if (two) packed.pose(option("toward"), toward);
-    const share = finite(option("t"), t);
-    if (share < 0 || share > 1) option("t").fail(t, "a number from 0 to 1");
+    const share = fraction(option("t"), t);
     this.#accept(packed, (raw, scratch) => raw.setPose(scratch, two, share));
   }
 
@@ -249,7 +250,7 @@ export class Sketch {
   seed(options: { spacing?: number } = {}): SketchSeed {
     const place = option("options");
     const { spacing = 0.05 } = fields(place, options, ["spacing"]);
-    const diagonals = readSpacing(place.at("spacing"), spacing);
+    const diagonals = notNegative(place.at("spacing"), spacing);
     return this.#owned.call((raw) => {
       raw.seed(diagonals);
       return {
@@ -287,11 +288,11 @@ export class Sketch {
     return result;
   }
 
-  #accept({ doubles, integers }: Packed, work: (raw: RawSketch, scratch: ReturnType<Core["stage"]>) => ReturnType<RawSketch["redraw"]>): void {
+  #accept({ doubles, integers }: Packed, work: PackedCall): void {
     this.#owned.accept((raw) => work(raw, this.#owned.core.stage(doubles, integers)));
   }
 
-  #profile(profile: Profile, work: (raw: RawSketch, scratch: ReturnType<Core["stage"]>) => ReturnType<RawSketch["redraw"]>): void {
+  #profile(profile: Profile, work: PackedCall): void {
     this.#accept(new Packed().pairs(option("profile"), profile), work);
   }
 }
@@ -303,17 +304,11 @@ function option(name: string): Place {
 const known = ["camera", "reference", "partitions", "smooth", "mirror", "labels"];
 
 function readSketch(value: unknown) {
-  const place = option("options");
-  const options = fields(place, value, known, "option of a sketch");
-  const mirrored = options.mirror !== undefined;
-  const packed = new Packed().camera(option("camera"), options.camera).pairs(option("reference"), options.reference);
-  if (mirrored) packed.mirror(option("mirror"), options.mirror);
-  packed.partitions(option("partitions"), options.partitions ?? []);
+  const options = fields(option("options"), value, known, "option of a sketch");
+  const drawing = readDrawing(option(""), options);
   if (options.labels !== undefined) {
-    const labels = Array.from(list(option("labels"), options.labels, "a label a vertex"));
-    if (labels.length === 0) option("labels").reject("is empty; expected a label a vertex");
-    labels.forEach((label, i) => packed.integers.push(integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")));
+    const labels = Array.from(filled(option("labels"), options.labels, "a label a vertex"));
+    labels.forEach((label, i) => drawing.packed.integers.push(integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")));
   }
-  const smooth = options.smooth === undefined || flag(option("smooth"), options.smooth);
-  return { packed, smooth, mirrored };
+  return drawing;
 }

@@ -1,6 +1,6 @@
 // What a sketch is made from, as callers write it, and how it is packed for the WASM side.
 
-import { fields, finite, type FloatArray, list, notNegative, type Place, points, direction, vector } from "./check.js";
+import { type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "./check.js";
 
 /** The contract's CAMERA. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
 export interface Camera {
@@ -107,7 +107,11 @@ export function unpackPose(numbers: ArrayLike<number>): SketchPose {
   return { heading, turns: turns.flat(), length, twist: twist as SketchPose["twist"], scale: scale as SketchPose["scale"] };
 }
 
-/** The share of a diagonal between vertices of a seed. */
-export function readSpacing(place: Place, value: unknown): number {
-  return notNegative(place, value);
+/** What a region is chosen by, packed, and the two choices that travel beside. */
+export function readDrawing(place: Place, options: Fields): { packed: Packed; smooth: boolean; mirrored: boolean } {
+  const packed = new Packed().camera(place.at("camera"), options.camera).pairs(place.at("reference"), options.reference);
+  const mirrored = options.mirror !== undefined;
+  if (mirrored) packed.mirror(place.at("mirror"), options.mirror);
+  packed.partitions(place.at("partitions"), options.partitions ?? []);
+  return { packed, smooth: options.smooth === undefined || flag(place.at("smooth"), options.smooth), mirrored };
 }

@@ -1,12 +1,12 @@
 // Reads an edit script: every key and value is checked, and an error names its place in the script.
 
 import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../check.js";
-import { type DeformerOptions, type LiveOptions, type Method, type Options, readLive, readMethod, readOptions, readSeed } from "../methods/index.js";
+import { type DeformerOptions, type LiveOptions, type Method, type Options, readLive, readMethod, readSeed } from "../methods/index.js";
 import { type Extent, readSelection, type Select } from "../selection.js";
 import { readTransform, type Transform } from "../transform.js";
 import { sameExceptGoals } from "./keyframes.js";
 import { readSketchStep, type SketchPlan } from "./sketch_read.js";
-import { maxCount, readSolve, type SolvePlan } from "./solve.js";
+import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";
 
 /** Where a handle goes. */
 export type Goal = { move: Transform } | { targets: ArrayLike<number>; place: Place };
@@ -99,8 +99,7 @@ function readStep(place: Place, value: unknown, { extent, seed }: Context): Step
   if ((value as Fields).method === "sketch") return readSketchStep(place, value, extent, seed);
   const method = readMethod(place.at("method"), (value as Fields).method);
   const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
-  const options = step.options ?? {};
-  readOptions(place.at("options"), options, method, extent);
+  const options = readDeformer(place.at("options"), step.options, method, extent, seed);
   const handles = readHandles(place.at("handles"), step.handles ?? [], extent);
   const drag = Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
     readDrag(place.at("drag").item(i), item, method, handles, extent));
@@ -108,7 +107,7 @@ function readStep(place: Place, value: unknown, { extent, seed }: Context): Step
   if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
   return {
     place,
-    options: { ...(seed !== undefined && "seed" in method.options ? { seed } : {}), ...options, method: method.name } as DeformerOptions,
+    options,
     fixed: Array.from(list(place.at("fixed"), step.fixed ?? [], "selections"), (item, i) => ({
       place: place.at("fixed").item(i),
       select: readSelection(place.at("fixed").item(i), item, extent),

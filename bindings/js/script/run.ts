@@ -176,10 +176,8 @@ class Run {
     const morph = poseSketch(sketch, plan);
     const end = performance.now();
     this.#labels = sketch.labels();
-    if (plan.finish) {
-      const finish = await this.#finish(sketch, plan.finish, morph, onStep);
-      return { ...sketchReport(sketch, plan, posing - begin, end - posing), finish };
-    }
+    const report = sketchReport(sketch, plan, posing - begin, end - posing);
+    if (plan.finish) return { ...report, finish: await this.#finish(sketch, plan.finish, morph, onStep) };
     onStep({ iteration: 1, energy: 0 });
     const { refinement } = sketch;
     if (refinement) {
@@ -189,7 +187,7 @@ class Run {
     this.#carriers.push(refuseToCarry);
     const positions = sketch.positions(new Float64Array(3 * sketch.vertices));
     this.#last = { shape, positions, state: () => ({ handles: [], ...sketch.state() }) };
-    return sketchReport(sketch, plan, posing - begin, end - posing);
+    return report;
   }
 
   /** A solver goes on from the pose, in parts where it turns far. */

@@ -1,11 +1,11 @@
 // Reads the sketch steps of a script.
 
-import { fields, type Fields, finite, flag, integer, type Place } from "../check.js";
-import { type DeformerOptions, readMethod, readOptions } from "../methods/index.js";
+import { fields, type Fields, finite, fraction, integer, notNegative, type Place } from "../check.js";
+import { type DeformerOptions, readMethod } from "../methods/index.js";
 import type { Extent } from "../selection.js";
 import type { Camera, Profile, SketchOptions, Stroke } from "../sketch.js";
-import { Packed, readSpacing } from "../sketch_input.js";
-import { maxCount, readSolve, type SolvePlan } from "./solve.js";
+import { Packed, readDrawing } from "../sketch_input.js";
+import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";
 
 /** How a limb is posed. */
 export interface PosePlan {
@@ -40,10 +40,10 @@ export interface SketchPlan {
 
 /** What may differ between keyframes. */
 export const poseKeys = ["bend", "twist", "scale", "turning", "twistSpeed", "morph"] as const;
-const otherKeys = ["camera", "reference", "partitions", "smooth", "mirror", "region", "refine", "finish"] as const;
+const drawingKeys = ["camera", "reference", "partitions", "smooth", "mirror"] as const;
 
 export function readSketchStep(place: Place, value: unknown, extent: Extent, seed: number | undefined): SketchPlan {
-  const step = fields(place, value, ["method", ...otherKeys, ...poseKeys]);
+  const step = fields(place, value, ["method", ...drawingKeys, ...poseKeys, "region", "refine", "finish"]);
   readDrawing(place, step);
   const pose = readPose(place, step);
   const region = step.region === undefined ? undefined : readRegion(place.at("region"), step);
@@ -53,22 +53,15 @@ export function readSketchStep(place: Place, value: unknown, extent: Extent, see
   if (refine && step.finish !== undefined) place.reject("has refine and finish; expected one or the other");
   return {
     place, region, pose, toward: undefined, refine,
-    sketch: drawing(step, "camera", "reference", "partitions", "smooth", "mirror"),
+    sketch: drawingOf(step),
     finish: step.finish === undefined ? undefined : readFinish(place.at("finish"), step.finish, extent, seed),
   };
 }
 
-/** Checks what `pliant.sketch` will read again. */
-function readDrawing(place: Place, step: Fields): void {
-  const packed = new Packed().camera(place.at("camera"), step.camera).pairs(place.at("reference"), step.reference);
-  if (step.partitions !== undefined) packed.partitions(place.at("partitions"), step.partitions);
-  if (step.mirror !== undefined) packed.mirror(place.at("mirror"), step.mirror);
-  if (step.smooth !== undefined) flag(place.at("smooth"), step.smooth);
-}
-
-/** Those of the keys that are given. */
-function drawing(step: Fields, ...keys: (keyof SketchOptions)[]): SketchOptions {
-  return Object.fromEntries(keys.filter((key) => step[key] !== undefined).map((key) => [key, step[key]])) as object as SketchOptions;
+/** What `pliant.sketch` will read again. */
+function drawingOf(step: Fields): SketchOptions {
+  const given = drawingKeys.filter((key) => step[key] !== undefined);
+  return Object.fromEntries(given.map((key) => [key, step[key]])) as object as SketchOptions;
 }
 
 function readPose(place: Place, step: Fields): PosePlan {
@@ -77,15 +70,13 @@ function readPose(place: Place, step: Fields): PosePlan {
     place.reject("has no bend, twist, scale or turning and asks for nothing; expected at least one of them");
   }
   if (twistSpeed !== undefined && twist === undefined) place.at("twistSpeed").reject("is given without twist; expected both or neither");
-  const share = finite(place.at("morph"), morph, "a number from 0 to 1");
-  if (share < 0 || share > 1) place.at("morph").fail(morph, "a number from 0 to 1");
   return {
     bend: readPairs(place.at("bend"), bend, "target"),
     degrees: twist === undefined ? undefined : readDegrees(place.at("twist"), twist),
     scale: readPairs(place.at("scale"), scale, "profile"),
     turning: readPairs(place.at("turning"), turning, "profile"),
     twistSpeed: readPairs(place.at("twistSpeed"), twistSpeed, "profile"),
-    morph: share,
+    morph: fraction(place.at("morph"), morph),
   };
 }
 
@@ -118,9 +109,9 @@ function readRefine(place: Place, value: unknown): { maxAdded?: number } | undef
 function readFinish(place: Place, value: unknown, extent: Extent, seed: number | undefined): FinishPlan {
   const finish = fields(place, value, ["method", "options", "spacing", "solve"]);
   const method = readMethod(place.at("method"), finish.method);
-  readOptions(place.at("options"), finish.options ?? {}, method, extent);
-  const spacing = finish.spacing === undefined ? undefined : readSpacing(place.at("spacing"), finish.spacing);
-  const seeded = seed !== undefined && "seed" in method.options ? { seed } : {};
-  const options = { ...seeded, ...(finish.options as object), method: method.name } as DeformerOptions;
-  return { options, spacing, ...readSolve(place.at("solve"), finish.solve) };
+  return {
+    options: readDeformer(place.at("options"), finish.options, method, extent, seed),
+    spacing: finish.spacing === undefined ? undefined : notNegative(place.at("spacing"), finish.spacing),
+    ...readSolve(place.at("solve"), finish.solve),
+  };
 }

@@ -1,6 +1,8 @@
-// How long a step of a script solves.
+// What a step of a script, and the finish of a sketch, solve with and how long.
 
 import { fields, integer, type Place, positive } from "../check.js";
+import { type DeformerOptions, type Method, readOptions } from "../methods/index.js";
+import type { Extent } from "../selection.js";
 
 export interface SolvePlan {
   iterations: number;
@@ -8,6 +10,14 @@ export interface SolvePlan {
 }
 
 export const maxCount = 2 ** 31 - 1;
+
+/** The options of a method, checked, for a deformer that reads them again; `seed`: of the script, where they have none. */
+export function readDeformer(place: Place, value: unknown, method: Method, extent: Extent, seed: number | undefined): DeformerOptions {
+  const options = value ?? {};
+  readOptions(place, options, method, extent);
+  const seeded = seed !== undefined && "seed" in method.options ? { seed } : {};
+  return { ...seeded, ...options, method: method.name } as DeformerOptions;
+}
 
 export function readSolve(place: Place, value: unknown): SolvePlan {
   const { iterations = 100, tolerance = 1e-6 } = fields(place, value ?? {}, ["iterations", "tolerance"]);
