@@ -1,6 +1,9 @@
 #include "pliant/geometry/adjacency.h"
 
 #include <numeric>
+#include <utility>
+
+#include "pliant/core/disjoint_sets.h"
 
 namespace pliant {
 
@@ -35,41 +38,27 @@ EdgeTable unique_edges(const Triangles& triangles, Index points) {
   return edges;
 }
 
-namespace {
-
-/// Root of an element's tree; halves the path on the way.
-Index find_root(std::vector<Index>& parent, Index element) {
-  while (parent[element] != element) {
-    parent[element] = parent[parent[element]];
-    element = parent[element];
-  }
-  return element;
+int corner_across(const Triangles& triangles, Index t, Index a, Index b) {
+  int c = 0;
+  while (triangles(c, t) == a || triangles(c, t) == b) ++c;
+  return c;
 }
 
-}  // namespace
+bool walks_along(const Triangles& triangles, Index t, Index a, Index b) {
+  for (int c = 0; c < 3; ++c) {
+    if (triangles(c, t) == a && triangles((c + 1) % 3, t) == b) return true;
+  }
+  return false;
+}
 
 Components connected_components(const Triangles& triangles, const Incidence& around) {
-  std::vector<Index> parent(triangles.cols());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets sets(static_cast<Index>(triangles.cols()));
   for_each_edge(triangles, around, [&](Index, Index, std::span<const Index> sharing) {
-    for (const Index t : sharing.subspan(1)) {
-      const Index a = find_root(parent, sharing.front());
-      const Index b = find_root(parent, t);
-      // The lower id becomes the root, so that roots are met first below.
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const Index t : sharing.subspan(1)) sets.join(sharing.front(), t);
   });
-
-  Components parts;
-  parts.of_triangle.resize(triangles.cols());
-  for (Index t = 0; t < triangles.cols(); ++t) {
-    const Index root = find_root(parent, t);
-    parts.of_triangle[t] = root == t ? parts.count++ : parts.of_triangle[root];
-  }
-  for (Index p = 0; p < around.rows(); ++p) {
-    parts.count += around.row(p).empty();
-  }
-  return parts;
+  auto [count, of_triangle] = sets.numbered();
+  for (Index p = 0; p < around.rows(); ++p) count += around.row(p).empty();
+  return {count, std::move(of_triangle)};
 }
 
 }  // namespace pliant

@@ -64,6 +64,11 @@ struct EdgeTable {
 
 EdgeTable unique_edges(const Triangles& triangles, Index points);
 
+/// The corner of triangle t that is neither of two others.
+int corner_across(const Triangles& triangles, Index t, Index a, Index b);
+/// Whether triangle t runs through its edge a, b from a to b.
+bool walks_along(const Triangles& triangles, Index t, Index a, Index b);
+
 /// Parts connected through shared edges (two parts that touch at a point only stay two); a point
 /// without triangles is a part of its own.
 struct Components {

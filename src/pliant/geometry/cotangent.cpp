@@ -22,4 +22,15 @@ Points half_cotangents(const Points& points, const Triangles& triangles) {
   return weights;
 }
 
+std::vector<double> cotangent_weights(const Points& half_cotangents, const Triangles& triangles,
+                                      const EdgeTable& edges) {
+  std::vector<double> weights(edges.size(), 0.0);
+  for (Index e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = edges.ends[e];
+    for (Index t : edges.triangles.row(e))
+      weights[e] += half_cotangents(corner_across(triangles, t, a, b), t);
+  }
+  return weights;
+}
+
 }  // namespace pliant

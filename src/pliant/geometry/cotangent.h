@@ -1,7 +1,10 @@
 // Cotangents of triangle corners, safe on bad triangles.
 #pragma once
 
+#include <vector>
+
 #include "pliant/core/types.h"
+#include "pliant/geometry/adjacency.h"
 
 namespace pliant {
 
@@ -14,5 +17,10 @@ inline constexpr double kLeastHeight = 1e-6;
 /// are damped by one factor, so that its Dirichlet energy sum_c w_c |edge across c|^2 stays at
 /// least 0.
 Points half_cotangents(const Points& points, const Triangles& triangles);
+
+/// Sum of the half cotangents across each edge of the same triangles: the weights of the cotangent
+/// Laplacian, of any sign.
+std::vector<double> cotangent_weights(const Points& half_cotangents, const Triangles& triangles,
+                                      const EdgeTable& edges);
 
 }  // namespace pliant

@@ -1,7 +1,9 @@
 // A symmetric matrix of dense blocks over a graph: one diagonal block a node, one block an edge.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "pliant/core/types.h"
@@ -26,6 +28,21 @@ struct BlockMatrix {
     edges = std::move(sorted_edges);
     diagonal.assign(static_cast<std::size_t>(nodes) * block * block, 0.0);
     off_diagonal.assign(edges.size() * block * block, 0.0);
+  }
+  /// Sets the edges and their scalars (B is 1) from entries in any order; those of one edge are
+  /// summed in the order given.
+  void sum_off_diagonal(std::vector<std::pair<Edge, double>> entries) {
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    edges.clear();
+    off_diagonal.clear();
+    for (const auto& [edge, value] : entries) {
+      if (edges.empty() || edges.back() != edge) {
+        edges.push_back(edge);
+        off_diagonal.push_back(0.0);
+      }
+      off_diagonal.back() += value;
+    }
   }
   double* diagonal_block(Index j) {
     return diagonal.data() + static_cast<std::size_t>(j) * block * block;

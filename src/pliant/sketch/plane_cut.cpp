@@ -5,10 +5,11 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/disjoint_sets.h"
+#include "pliant/geometry/adjacency.h"
 #include "pliant/sketch/graph_cut.h"
 
 namespace pliant {
@@ -16,27 +17,6 @@ namespace {
 
 constexpr double concave = 1.0, convex = 0.2;  // eta
 constexpr double least_cost = 0.01;            // of the length
-
-Index root_of(std::vector<Index>& parent, Index i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-void join(std::vector<Index>& parent, Index a, Index b) {
-  if (parent[a] == parent[b]) return;
-  a = root_of(parent, a);
-  b = root_of(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
-std::vector<Index> all_apart(Index count) {
-  std::vector<Index> parent(count);
-  std::iota(parent.begin(), parent.end(), 0);
-  return parent;
-}
 
 /// An edge of a triangle; equal edges stand together when sorted.
 struct Side {
@@ -83,13 +63,12 @@ double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 }
 
 std::vector<Index> connected_points(const Triangles& triangles, Index points) {
-  std::vector<Index> parent = all_apart(points);
+  DisjointSets sets(points);
   for (Index t = 0; t < triangles.cols(); ++t) {
-    join(parent, triangles(0, t), triangles(1, t));
-    join(parent, triangles(0, t), triangles(2, t));
+    sets.join(triangles(0, t), triangles(1, t));
+    sets.join(triangles(0, t), triangles(2, t));
   }
-  for (Index p = 0; p < points; ++p) parent[p] = parent[parent[p]];
-  return parent;
+  return sets.roots();
 }
 
 PlaneCut::PlaneCut(const Points& points, const Triangles& triangles, std::span<const Index> part,
@@ -105,16 +84,15 @@ bool PlaneCut::crossed(Index t) const {
 }
 
 void PlaneCut::find_pieces() {
-  piece_ = all_apart(static_cast<Index>(points_.cols()));
+  DisjointSets pieces(static_cast<Index>(points_.cols()));
   for (const Index t : part_) {
     const Index a = triangles_(0, t), b = triangles_(1, t), c = triangles_(2, t);
     const bool at_a = distance_[a] >= 0.0, at_b = distance_[b] >= 0.0, at_c = distance_[c] >= 0.0;
-    if (at_a == at_b) join(piece_, a, b);
-    if (at_a == at_c) join(piece_, a, c);
-    if (at_a != at_b && at_b == at_c) join(piece_, b, c);
+    if (at_a == at_b) pieces.join(a, b);
+    if (at_a == at_c) pieces.join(a, c);
+    if (at_a != at_b && at_b == at_c) pieces.join(b, c);
   }
-  // Parents come before their children.
-  for (Index p = 0; p < points_.cols(); ++p) piece_[p] = piece_[piece_[p]];
+  piece_ = pieces.roots();
 }
 
 Index PlaneCut::piece_of(const CutLoop& loop, bool ahead) const {
@@ -129,7 +107,7 @@ void PlaneCut::find_loops() {
   for (const Index t : part_) {
     if (crossed(t)) across.push_back(t);
   }
-  std::vector<Index> parent = all_apart(static_cast<Index>(across.size()));
+  DisjointSets sets(static_cast<Index>(across.size()));
   const auto place = [&](Index t) {
     return static_cast<Index>(std::lower_bound(across.begin(), across.end(), t) - across.begin());
   };
@@ -139,29 +117,21 @@ void PlaneCut::find_loops() {
   };
   for_each_run(sides, [&](auto first, auto last) {
     for (auto next = first + 1; is_crossed(*first) && next != last; ++next) {
-      join(parent, place(first->triangle), place(next->triangle));
+      sets.join(place(first->triangle), place(next->triangle));
     }
   });
 
-  std::vector<Index> loop_of(across.size(), -1);
-  std::vector<std::vector<Eigen::Vector3d>> crossings;
-  for (Index i = 0; i < static_cast<Index>(across.size()); ++i) {
-    const Index root = root_of(parent, i);
-    if (root == i) {
-      loop_of[i] = static_cast<Index>(loops_.size());
-      loops_.emplace_back();
-    }
-    loops_[loop_of[root]].triangles.push_back(across[i]);
-    loop_of[i] = loop_of[root];
-  }
-  crossings.resize(loops_.size());
+  const DisjointSets::Numbered loop = sets.numbered();
+  loops_.resize(loop.count);
+  for (std::size_t i = 0; i < across.size(); ++i) loops_[loop.of[i]].triangles.push_back(across[i]);
+  std::vector<std::vector<Eigen::Vector3d>> crossings(loop.count);
   const auto crossing = [&](Index a, Index b) -> Eigen::Vector3d {
     const double share = distance_[a] / (distance_[a] - distance_[b]);
     return (1.0 - share) * points_.col(a) + share * points_.col(b);
   };
   for_each_run(sides, [&](auto first, auto) {
     if (!is_crossed(*first)) return;
-    crossings[loop_of[place(first->triangle)]].push_back(crossing(first->low, first->high));
+    crossings[loop.of[place(first->triangle)]].push_back(crossing(first->low, first->high));
   });
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     loops_[l].crossings.resize(3, static_cast<Index>(crossings[l].size()));
@@ -183,17 +153,17 @@ void PlaneCut::find_loops() {
 
 const std::vector<Index>& PlaneCut::separate(Index first) {
   find_pieces();
-  group_ = all_apart(static_cast<Index>(piece_.size()));
+  DisjointSets groups(static_cast<Index>(piece_.size()));
   const Index source = behind(loops_[first]), sink = ahead(loops_[first]);
   for (const CutLoop& loop : loops_) {
-    const Index a = root_of(group_, behind(loop)), b = root_of(group_, ahead(loop));
-    const Index s = root_of(group_, source), t = root_of(group_, sink);
+    const Index a = groups.find(behind(loop)), b = groups.find(ahead(loop));
+    const Index s = groups.find(source), t = groups.find(sink);
     const bool merges = (a == s && b == t) || (a == t && b == s);
-    if (!merges) join(group_, a, b);
+    if (!merges) groups.join(a, b);
   }
-  behind_ = root_of(group_, source);
-  ahead_ = root_of(group_, sink);
-  for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = group_[group_[i]];
+  group_ = groups.roots();
+  behind_ = group_[source];
+  ahead_ = group_[sink];
   kept_.clear();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     if (group_[behind(loops_[l])] != group_[ahead(loops_[l])]) {
@@ -234,15 +204,15 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
     return static_cast<Index>(std::lower_bound(near.begin(), near.end(), t) - near.begin());
   };
   const std::vector<Side> edges = sorted_sides(triangles_, near);
-  std::vector<Index> parent = all_apart(static_cast<Index>(near.size()));
+  DisjointSets sets(static_cast<Index>(near.size()));
   for_each_run(edges, [&](auto first, auto last) {
     for (auto next = first + 1; next != last; ++next) {
-      join(parent, place(first->triangle), place(next->triangle));
+      sets.join(place(first->triangle), place(next->triangle));
     }
   });
   std::vector<bool> is_fuzzy(near.size(), false);
-  for (const Index l : kept_) is_fuzzy[root_of(parent, place(loops_[l].triangles.front()))] = true;
-  const auto fuzzy = [&](Index t) { return is_fuzzy[root_of(parent, place(t))]; };
+  for (const Index l : kept_) is_fuzzy[sets.find(place(loops_[l].triangles.front()))] = true;
+  const auto fuzzy = [&](Index t) { return is_fuzzy[sets.find(place(t))]; };
 
   std::vector<Terminal> nodes(near.size(), Terminal::none);
   std::vector<CutEdge> graph;
@@ -260,8 +230,7 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
       return;
     }
     const auto& corners = triangles_.col(first->triangle);
-    int at = 0;
-    while (corners[at] == a || corners[at] == b) ++at;
+    const int at = corner_across(triangles_, first->triangle, a, b);
     for (auto next = first + 1; next != last; ++next) {
       const double cost =
           cut_cost(points_.col(corners[(at + 1) % 3]), points_.col(corners[(at + 2) % 3]),

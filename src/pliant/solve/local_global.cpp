@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "pliant/core/disjoint_sets.h"
 
 namespace pliant {
 namespace {
@@ -11,24 +12,12 @@ namespace {
 constexpr double kSufficient = 1e-4;
 constexpr int kMaxHalvings = 40;
 
-Index find_root(std::vector<Index>& parent, Index p) {
-  while (parent[p] != p) p = parent[p] = parent[parent[p]];
-  return p;
-}
-
 }  // namespace
 
 std::vector<Index> parts_of(const BlockMatrix& matrix) {
-  std::vector<Index> parent(matrix.nodes), label(matrix.nodes, -1), parts(matrix.nodes);
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& [a, b] : matrix.edges) parent[find_root(parent, b)] = find_root(parent, a);
-  Index count = 0;
-  for (Index p = 0; p < matrix.nodes; ++p) {
-    Index& of_root = label[find_root(parent, p)];
-    if (of_root < 0) of_root = count++;
-    parts[p] = of_root;
-  }
-  return parts;
+  DisjointSets sets(matrix.nodes);
+  for (const auto& [a, b] : matrix.edges) sets.join(a, b);
+  return sets.numbered().of;
 }
 
 std::vector<bool> hold_one_a_part(const std::vector<Index>& parts, std::vector<bool>& held) {

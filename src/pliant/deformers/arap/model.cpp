@@ -23,13 +23,6 @@ Eigen::Vector3d laplacian(const std::vector<std::pair<Index, double>>& entries, 
   return sum;
 }
 
-/// The corner of a triangle that is neither a nor b.
-int corner_across(const Triangles& triangles, Index t, Index a, Index b) {
-  int c = 0;
-  while (triangles(c, t) == a || triangles(c, t) == b) ++c;
-  return c;
-}
-
 }  // namespace
 
 ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
@@ -37,30 +30,30 @@ ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
   const Triangles& triangles = shape.triangles();
   const Points cotangents = half_cotangents(rest_, triangles);
   const EdgeTable table = unique_edges(triangles, static_cast<Index>(rest_.cols()));
+  const std::vector<double> weights = cotangent_weights(cotangents, triangles, table);
   const bool rims = options.energy == ArapEnergy::spokes_and_rims;
   edges_ = table.ends;
   first_cell_.push_back(0);
   for (Index e = 0; e < table.size(); ++e) {
     const auto [a, b] = edges_[e];
     for (int k = 0; k < 3; ++k) rest_edges_.push_back(rest_(k, a) - rest_(k, b));
-    double weight = 0.0;
-    for (Index t : table.triangles.row(e))
-      weight += cotangents(corner_across(triangles, t, a, b), t);
-    if (!rims) weight = std::max(weight, 0.0);
+    const double weight = rims ? weights[e] : std::max(weights[e], 0.0);
     cells_.push_back({a, weight});
     cells_.push_back({b, weight});
     for (Index t : table.triangles.row(e)) {
+      if (!rims) break;
       const int c = corner_across(triangles, t, a, b);
-      if (rims) cells_.push_back({triangles(c, t), cotangents(c, t)});
+      cells_.push_back({triangles(c, t), cotangents(c, t)});
     }
     first_cell_.push_back(cells_.size());
   }
-  if (options.smoothness > 0.0) add_rows(triangles, table, cotangents, options.smoothness);
+  if (options.smoothness > 0.0) add_rows(triangles, table, cotangents, weights, options.smoothness);
   covariances_.resize(9, rest_.cols());
 }
 
 void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
-                         const Points& cotangents, double smoothness) {
+                         const Points& cotangents, const std::vector<double>& weights,
+                         double smoothness) {
   std::vector<double> area(rest_.cols(), 0.0);
   for (Index t = 0; t < triangles.cols(); ++t) {
     // Half cotangents times squared edges sum up to twice the area.
@@ -76,11 +69,8 @@ void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
   std::vector<bool> inner(rest_.cols(), true);
   for (Index e = 0; e < table.size(); ++e) {
     const auto [a, b] = table.ends[e];
-    double weight = 0.0;
-    for (Index t : table.triangles.row(e))
-      weight += cotangents(corner_across(triangles, t, a, b), t);
-    entries[a].emplace_back(b, weight);
-    entries[b].emplace_back(a, weight);
+    entries[a].emplace_back(b, weights[e]);
+    entries[b].emplace_back(a, weights[e]);
     if (table.triangles.row(e).size() == 1) inner[a] = inner[b] = false;
   }
   const double squared = smoothness * smoothness * std::accumulate(area.begin(), area.end(), 0.0);
@@ -93,14 +83,11 @@ void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
 BlockMatrix ArapModel::matrix() const {
   BlockMatrix matrix;
   matrix.set_zero(1, static_cast<Index>(rest_.cols()), edges_);
-  auto add_edge = [&](std::size_t e, double weight) {
-    matrix.off_diagonal[e] -= weight;
-    for (Index end : edges_[e]) matrix.diagonal[end] += weight;
-  };
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     double weight = kLeastMetric;
     for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) weight += cells_[c].weight;
-    add_edge(e, weight);
+    matrix.off_diagonal[e] = -weight;
+    for (Index end : edges_[e]) matrix.diagonal[end] += weight;
   }
   if (rows_.empty()) return matrix;
 
@@ -123,16 +110,7 @@ BlockMatrix ArapModel::matrix() const {
       }
     }
   }
-  std::sort(far.begin(), far.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  matrix.edges.clear();
-  matrix.off_diagonal.clear();
-  for (const auto& [edge, value] : far) {
-    if (matrix.edges.empty() || matrix.edges.back() != edge) {
-      matrix.edges.push_back(edge);
-      matrix.off_diagonal.push_back(0.0);
-    }
-    matrix.off_diagonal.back() += value;
-  }
+  matrix.sum_off_diagonal(std::move(far));
   return matrix;
 }
 

@@ -45,7 +45,7 @@ class ArapModel final : public LocalModel {
   };
 
   void add_rows(const Triangles& triangles, const EdgeTable& table, const Points& cotangents,
-                double smoothness);
+                const std::vector<double>& weights, double smoothness);
   /// sum_k w_k |L_k x - Q_k L_k from|^2, its parts and half its gradient.
   std::array<double, 2> residuals(const Points& from, const Rotations& turns, const Points& x,
                                   Points& half_gradient) const;

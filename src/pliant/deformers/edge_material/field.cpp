@@ -54,18 +54,13 @@ Eigen::Vector3d principal_direction(const Eigen::Matrix3d& tensor, const Eigen::
 /// The cotangent Laplacian with positive weights.
 BlockMatrix laplacian(const Shape& shape, const EdgeTable& edges) {
   const Triangles& triangles = shape.triangles();
-  const Points cotangents = half_cotangents(shape.points(), triangles);
+  const std::vector<double> weights =
+      cotangent_weights(half_cotangents(shape.points(), triangles), triangles, edges);
   BlockMatrix matrix;
   matrix.set_zero(1, static_cast<Index>(shape.points().cols()), edges.ends);
   for (Index e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges.ends[e];
-    double weight = 0.0;
-    for (Index t : edges.triangles.row(e)) {
-      for (int c = 0; c < 3; ++c) {
-        if (triangles(c, t) != a && triangles(c, t) != b) weight += cotangents(c, t);
-      }
-    }
-    weight = std::max(weight, kLeastWeight);
+    const double weight = std::max(weights[e], kLeastWeight);
     matrix.off_diagonal[e] = -weight;
     matrix.diagonal[a] += weight;
     matrix.diagonal[b] += weight;
@@ -165,13 +160,8 @@ Points curvature_field(const Shape& shape, const EdgeTable& edges, const Points&
     const Eigen::Vector3d u = areas.col(around[0]).normalized(),
                           v = areas.col(around[1]).normalized();
     // Which triangle comes first decides the sign: the one that walks from a to b.
-    bool walks = false;
-    for (int c = 0; c < 3; ++c) {
-      walks = walks || (shape.triangles()(c, around[0]) == a &&
-                        shape.triangles()((c + 1) % 3, around[0]) == b);
-    }
-    const double angle =
-        std::atan2((walks ? 1.0 : -1.0) * edge.normalized().dot(u.cross(v)), u.dot(v));
+    const double sign = walks_along(shape.triangles(), around[0], a, b) ? 1.0 : -1.0;
+    const double angle = std::atan2(sign * edge.normalized().dot(u.cross(v)), u.dot(v));
     ring.col(a) += angle / edge.norm() * outer(edge);
     ring.col(b) += angle / edge.norm() * outer(edge);
   }

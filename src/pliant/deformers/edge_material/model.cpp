@@ -48,18 +48,6 @@ void add_to_hinge(const EdgeElement& e, const Eigen::Vector3d& force, Points& su
   sum.col(e.m) -= (1.0 - e.beta) * force;
 }
 
-/// Whether triangle t walks from a to b.
-bool walks(const Triangles& triangles, Index t, Index a, Index b) {
-  for (int c = 0; c < 3; ++c) {
-    if (triangles(c, t) == a && triangles((c + 1) % 3, t) == b) return true;
-  }
-  return false;
-}
-
-Index point_across(const Triangles& triangles, Index t, Index a, Index b) {
-  return triangles.col(t).sum() - a - b;
-}
-
 }  // namespace
 
 EdgeMaterialModel::EdgeMaterialModel(const Shape& shape)
@@ -89,9 +77,11 @@ void EdgeMaterialModel::add_elements(const Triangles& triangles) {
     for (std::size_t a = 0; a < around.size(); ++a) {
       for (std::size_t b = a + 1; b < around.size(); ++b) {
         // l belongs to the triangle that walks from i to j, if the two agree on their sides.
-        Index l = point_across(triangles, around[a], element.i, element.j);
-        Index m = point_across(triangles, around[b], element.i, element.j);
-        if (!walks(triangles, around[a], element.i, element.j)) std::swap(l, m);
+        const auto across = [&](Index t) {
+          return triangles(corner_across(triangles, t, element.i, element.j), t);
+        };
+        Index l = across(around[a]), m = across(around[b]);
+        if (!walks_along(triangles, around[a], element.i, element.j)) std::swap(l, m);
         EdgeElement hinge = element;
         if (l != m) set_hinge(hinge, l, m);
         elements_.push_back(hinge);
@@ -161,15 +151,7 @@ BlockMatrix EdgeMaterialModel::matrix() const {
       for (int b = 0; b < a; ++b) add(points[a], points[b], bend * row[a] * row[b]);
     }
   }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [edge, value] : entries) {
-    if (matrix.edges.empty() || matrix.edges.back() != edge) {
-      matrix.edges.push_back(edge);
-      matrix.off_diagonal.push_back(0.0);
-    }
-    matrix.off_diagonal.back() += value;
-  }
+  matrix.sum_off_diagonal(std::move(entries));
   return matrix;
 }
 
