@@ -1,10 +1,12 @@
 #include "pliant/deformers/edge_material/model.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include "support/dense.h"
 #include "support/derivatives.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -150,13 +152,8 @@ TEST_CASE("edge material: the matrix is the second derivative with normals and d
   model.set_weights({.lambda = 0.7, .mu = 1.3});
   const Index n = static_cast<Index>(shape->points().cols());
   const BlockMatrix sparse = model.matrix();
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-  for (Index i = 0; i < n; ++i) matrix(i, i) = sparse.diagonal[i];
-  for (std::size_t e = 0; e < sparse.edges.size(); ++e) {
-    const auto [a, b] = sparse.edges[e];
-    CHECK(a < b);
-    matrix(a, b) = matrix(b, a) = sparse.off_diagonal[e];
-  }
+  const Eigen::MatrixXd matrix = test::dense(sparse);
+  CHECK(std::is_sorted(sparse.edges.begin(), sparse.edges.end()));
   const Points x = shaken(shape->points(), 1.0);
   Points half_gradient;
   model.turned_gradient(x, Rotations::Zero(9, n), x, half_gradient);
