@@ -32,7 +32,7 @@ struct Scene {
     energy.set_up(graph, frozen, constrained, some,
                   {.rotation = 1.3, .regularization = 7.0, .constraint = 90.0});
     targets = test::Random(8).vector(9).reshaped(3, 3);
-    energy.set_targets(targets);
+    energy.constraints().set_targets(targets);
     x = 0.3 * test::Random(2).vector(3 * energy.rows());
     energy.evaluate(x);
   }
@@ -95,7 +95,7 @@ TEST_CASE("the three terms are those of eq. 5 to 8") {
 
 TEST_CASE("at rest every term and the gradient are exactly zero") {
   Scene s;
-  s.energy.set_targets(Points::Zero(3, 3));
+  s.energy.constraints().set_targets(Points::Zero(3, 3));
   const Vector rest = Vector::Zero(s.x.size());
   s.energy.evaluate(rest);
   CHECK(s.energy.total() == 0.0);

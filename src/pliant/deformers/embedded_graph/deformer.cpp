@@ -97,14 +97,6 @@ std::vector<bool> frozen_nodes(const DeformationGraph& graph,
   return frozen;
 }
 
-Eigen::Matrix3d cofactors(const Eigen::Matrix3d& r) {
-  Eigen::Matrix3d c;
-  c.col(0) = r.col(1).cross(r.col(2));
-  c.col(1) = r.col(2).cross(r.col(0));
-  c.col(2) = r.col(0).cross(r.col(1));
-  return c;
-}
-
 }  // namespace
 
 Status EmbeddedGraph::Impl::set_up(const EmbeddedGraph& self) {
@@ -155,7 +147,7 @@ embedded::Terms EmbeddedGraph::Impl::terms(const EmbeddedGraph& self) const {
   const Points rest = graph.scaled(self.shape().points()(Eigen::all, constrained.points));
   energy.set_up(graph, std::vector<bool>(graph.size(), false), rest,
                 rows_of(graph.influences, constrained.points), weights());
-  energy.set_targets(graph.scaled(constrained.targets) - rest);
+  energy.constraints().set_targets(graph.scaled(constrained.targets) - rest);
   energy.evaluate(embedded::unknowns_of(pose));
   return energy.terms();
 }
@@ -175,8 +167,8 @@ PackedMaps EmbeddedGraph::Impl::normal_maps() const {
   PackedMaps maps(12, graph.size());
   for (Index j = 0; j < graph.size(); ++j) {
     const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + embedded::gradient_of(pose, j);
-    maps.col(j) =
-        embedded::pack_map(cofactors(r) - Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+    maps.col(j) = embedded::pack_map(embedded::cofactors(r) - Eigen::Matrix3d::Identity(),
+                                     Eigen::Vector3d::Zero());
   }
   return maps;
 }

@@ -49,46 +49,6 @@ void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d
   }
 }
 
-/// Sums of w (v, 1)(v, 1)' over points v: the upper triangle, row by row.
-using Moments = std::array<double, 10>;
-
-Moments moments_of(const Eigen::Vector3d& v) {
-  return {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[0], v[1] * v[1],
-          v[1] * v[2], v[1],        v[2] * v[2], v[2], 1.0};
-}
-
-void add_moments(const Moments& moments, double w, Moments& sum) {
-  const dense::Vec2 scale = dense::splat2(w);
-  for (int i = 0; i < 10; i += 2) {
-    dense::store2(&sum[i], dense::load2(&sum[i]) + scale * dense::load2(&moments[i]));
-  }
-}
-
-/// The same sums of (v - a, 1)(v - b, 1)'.
-Eigen::Matrix4d moments_about(const Moments& sum, const Eigen::Vector3d& a,
-                              const Eigen::Vector3d& b) {
-  Eigen::Matrix4d m;
-  for (int r = 0, i = 0; r < 4; ++r) {
-    for (int c = r; c < 4; ++c) m(r, c) = m(c, r) = sum[i++];
-  }
-  for (int r = 0; r < 3; ++r) m.row(r) -= a[r] * m.row(3);
-  for (int c = 0; c < 3; ++c) m.col(c) -= b[c] * m.col(3);
-  return m;
-}
-
-/// y += block x.
-void add_product(const Eigen::Matrix4d& block, const double* x, double* y) {
-  dense::Vec2 y01 = dense::load2(y), y23 = dense::load2(y + 2);
-  const double* column = block.data();
-  for (int c = 0; c < 4; ++c, column += 4) {
-    const dense::Vec2 xc = dense::splat2(x[c]);
-    y01 += dense::load2(column) * xc;
-    y23 += dense::load2(column + 2) * xc;
-  }
-  dense::store2(y, y01);
-  dense::store2(y + 2, y23);
-}
-
 }  // namespace
 
 double Quartic::first_minimum() const {
@@ -122,11 +82,11 @@ void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>&
   weights_ = weights;
   all_nodes_ = graph.size();
   const Points g = graph.scaled(graph.nodes);
-  std::vector<Index> free_of_node(graph.size(), -1);
+  free_of_node_.assign(graph.size(), -1);
   node_of_free_.clear();
   for (Index j = 0; j < graph.size(); ++j) {
     if (frozen[j]) continue;
-    free_of_node[j] = free_nodes();
+    free_of_node_[j] = free_nodes();
     node_of_free_.push_back(j);
   }
 
@@ -135,86 +95,15 @@ void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>&
   free_edge_index_.clear();
   for (const auto& [j, k] : graph.edges) {
     if (frozen[j] && frozen[k]) continue;  // at rest on both ends: no energy
-    edges_.push_back({free_of_node[j], free_of_node[k], g.col(k) - g.col(j)});
+    edges_.push_back({free_of_node_[j], free_of_node_[k], g.col(k) - g.col(j)});
     const bool is_free = !frozen[j] && !frozen[k];
     free_edge_index_.push_back(is_free ? static_cast<Index>(free_edges_.size()) : -1);
-    if (is_free) free_edges_.push_back({free_of_node[j], free_of_node[k]});
+    if (is_free) free_edges_.push_back({free_of_node_[j], free_of_node_[k]});
   }
 
-  influences_.clear();
-  influences_.reserve(influences.indices.size());
-  constraint_start_.assign(1, 0);
-  for (Index l = 0; l < constrained.cols(); ++l) {
-    for (int s = 0; s < influences.k; ++s) {
-      const std::size_t at = static_cast<std::size_t>(l) * influences.k + s;
-      const Index node = influences.indices[at];
-      const double w = influences.weights[at];
-      if (frozen[node] || w == 0.0) continue;
-      Influence influence{free_of_node[node], {}};
-      influence.coefficients << w * (constrained.col(l) - g.col(node)), w;
-      influences_.push_back(influence);
-    }
-    constraint_start_.push_back(influences_.size());
-  }
-  targets_ = Points::Zero(3, constrained.cols());
-  con_ = targets_;
+  constraints_.set_up(constrained, influences, g, free_of_node_, free_nodes(), free_edges_);
   reg_.resize(3, 2 * static_cast<Index>(edges_.size()));
   reg_along_.resizeLike(reg_);
-  con_rhs_.setZero(3 * rows());
-  con_gradient_ = con_rhs_;
-  con_along_.setZero(3 * rows());
-  gather_constraint_blocks(constrained, g(Eigen::all, node_of_free_));
-}
-
-void GraphEnergy::gather_constraint_blocks(const Points& constrained, const Points& nodes) {
-  std::vector<std::size_t> first_edge(free_nodes() + 1, free_edges_.size());
-  for (std::size_t e = free_edges_.size(); e-- > 0;) first_edge[free_edges_[e][0]] = e;
-  for (Index j = free_nodes(); j-- > 0;) first_edge[j] = std::min(first_edge[j], first_edge[j + 1]);
-  std::vector<Moments> of_node(free_nodes(), Moments{}), of_edge(free_edges_.size(), Moments{});
-  for (Index l = 0; l < constrained.cols(); ++l) {
-    const Moments moments = moments_of(constrained.col(l));
-    for (std::size_t p = constraint_start_[l]; p < constraint_start_[l + 1]; ++p) {
-      const Index one = influences_[p].node;
-      const double w = influences_[p].coefficients[3];
-      add_moments(moments, w * w, of_node[one]);
-      for (std::size_t q = constraint_start_[l]; q < p; ++q) {
-        const Index two = influences_[q].node;
-        std::size_t e = first_edge[std::min(one, two)];
-        while (free_edges_[e][1] != std::max(one, two)) ++e;
-        add_moments(moments, w * influences_[q].coefficients[3], of_edge[e]);
-      }
-    }
-  }
-  constraint_blocks_.clear();
-  auto add_block = [&](Index j, Index k, const Moments& sum) {
-    if (sum.back() == 0.0) return;
-    const Eigen::Matrix4d block = moments_about(sum, nodes.col(k), nodes.col(j));
-    constraint_blocks_.push_back({j, k, block, block.transpose()});
-  };
-  for (Index j = 0; j < free_nodes(); ++j) add_block(j, j, of_node[j]);
-  for (std::size_t e = 0; e < free_edges_.size(); ++e)
-    add_block(free_edges_[e][0], free_edges_[e][1], of_edge[e]);
-}
-
-void GraphEnergy::set_targets(const Points& displacements) {
-  targets_ = displacements;
-  constraint_rhs(targets_, con_rhs_);
-}
-
-void GraphEnergy::constraint_rhs(const Points& values, Vector& rhs) const {
-  rhs.setZero();
-  for (Index l = 0; l < values.cols(); ++l) {
-    for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-      const double* w = influences_[i].coefficients.data();
-      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-      double* n = rhs.data() + 4 * influences_[i].node;
-      for (int a = 0; a < 3; ++a, n += rows()) {
-        const dense::Vec2 value = dense::splat2(values(a, l));
-        dense::store2(n, dense::load2(n) + value * w01);
-        dense::store2(n + 2, dense::load2(n + 2) + value * w23);
-      }
-    }
-  }
 }
 
 Eigen::Matrix3d GraphEnergy::displacement_gradient(const Vector& x, Index j) const {
@@ -243,37 +132,6 @@ void GraphEnergy::regularization_residuals(const Vector& x, Points& reg) const {
   }
 }
 
-Eigen::Vector3d GraphEnergy::constraint_residual(const Vector& x, Index l) const {
-  // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
-  Eigen::Vector3d r = -targets_.col(l);
-  for (std::size_t i = constraint_start_[l]; i < constraint_start_[l + 1]; ++i) {
-    const double* w = influences_[i].coefficients.data();
-    const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-    const double* n = x.data() + 4 * influences_[i].node;
-    for (int a = 0; a < 3; ++a, n += rows()) {
-      const dense::Vec2 sum = w01 * dense::load2(n) + w23 * dense::load2(n + 2);
-      r[a] += sum[0] + sum[1];
-    }
-  }
-  return r;
-}
-
-Points GraphEnergy::constraint_residuals(const Vector& x) const {
-  Points residuals(3, targets_.cols());
-  for (Index l = 0; l < residuals.cols(); ++l) residuals.col(l) = constraint_residual(x, l);
-  return residuals;
-}
-
-void GraphEnergy::apply_constraint_blocks(const Vector& d, Vector& product) const {
-  product.setZero();
-  for (const ConstraintBlock& b : constraint_blocks_) {
-    for (int a = 0; a < 3; ++a) {
-      add_product(b.block, entry(d, a, b.j), entry(product, a, b.k));
-      if (b.k != b.j) add_product(b.transposed, entry(d, a, b.k), entry(product, a, b.j));
-    }
-  }
-}
-
 double GraphEnergy::rotation_term(const Vector& x, Index j) const {
   double sum = 0.0;
   for (double f : conditions(displacement_gradient(x, j))) sum += f * f;
@@ -288,24 +146,22 @@ double GraphEnergy::rotation_terms(const Vector& x) const {
 
 void GraphEnergy::evaluate(const Vector& x) {
   regularization_residuals(x, reg_);
-  for (Index l = 0; l < con_.cols(); ++l) con_.col(l) = constraint_residual(x, l);
-  apply_constraint_blocks(x, con_gradient_);
-  con_gradient_ -= con_rhs_;
-  terms_ = {rotation_terms(x), reg_.squaredNorm(), con_.squaredNorm()};
+  terms_ = {rotation_terms(x), reg_.squaredNorm(), constraints_.evaluate(x)};
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
-  const double constraint = terms_.constraint + alpha * (con_slope_ + alpha * con_curvature_);
+  const double constraint =
+      terms_.constraint + alpha * (con_along_.slope + alpha * con_along_.curvature);
   // What is left after such a fall is mostly rounding.
   if (!(constraint > 1e-4 * terms_.constraint)) return evaluate(x);
   reg_ += alpha * reg_along_;
-  con_gradient_ += alpha * con_along_;
+  constraints_.advance(alpha);
   terms_ = {rotation_terms(x), reg_.squaredNorm(), constraint};
 }
 
 void GraphEnergy::retreat(double alpha, const Terms& terms) {
   reg_ -= alpha * reg_along_;
-  con_gradient_ -= alpha * con_along_;
+  constraints_.advance(-alpha);
   terms_ = terms;
 }
 
@@ -322,7 +178,7 @@ void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
 }
 
 void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
-  gradient = weights_.constraint * con_gradient_;
+  gradient = weights_.constraint * constraints_.gradient();
   for (int a = 0; a < 3; ++a) {
     double* part = gradient.data() + a * rows();
     for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -359,15 +215,14 @@ void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
 
 Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
   regularization_residuals(d, reg_along_);
-  apply_constraint_blocks(d, con_along_);
-  con_slope_ = 2.0 * d.dot(con_gradient_);
-  con_curvature_ = d.dot(con_along_);
+  con_along_ = constraints_.along(d);
   Quartic course;
   auto& c = course.c;
   c[0] = total();
   c[1] = 2.0 * weights_.regularization * reg_.cwiseProduct(reg_along_).sum() +
-         weights_.constraint * con_slope_;
-  c[2] = weights_.regularization * reg_along_.squaredNorm() + weights_.constraint * con_curvature_;
+         weights_.constraint * con_along_.slope;
+  c[2] = weights_.regularization * reg_along_.squaredNorm() +
+         weights_.constraint * con_along_.curvature;
   for (Index j = 0; j < free_nodes(); ++j) {
     const Eigen::Matrix3d u = displacement_gradient(x, j), step = displacement_gradient(d, j);
     const Conditions f0 = conditions(u), f2 = conditions_across(step);
@@ -405,12 +260,7 @@ void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
       add_outer(matrix.edge_block(free_edge_index_[e]), kk, shift, w);
     }
   }
-  for (const ConstraintBlock& b : constraint_blocks_) {
-    const auto edge = std::lower_bound(free_edges_.begin(), free_edges_.end(), Edge{b.j, b.k});
-    double* block =
-        b.j == b.k ? matrix.diagonal_block(b.j) : matrix.edge_block(edge - free_edges_.begin());
-    Eigen::Map<Eigen::Matrix4d>(block) += weights_.constraint * b.block;
-  }
+  constraints_.add_to(matrix, weights_.constraint);
 }
 
 void GraphEnergy::gauss_newton_matrix(const Vector& x, const BlockMatrix& constant,

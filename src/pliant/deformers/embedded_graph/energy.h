@@ -10,12 +10,11 @@
 #include <array>
 #include <vector>
 
+#include "pliant/deformers/embedded_graph/constraints.h"
 #include "pliant/deformers/embedded_graph/graph.h"
 #include "pliant/linalg/block_matrix.h"
 
 namespace pliant::embedded {
-
-using Vector = Eigen::VectorXd;
 
 struct Weights {
   double rotation = 1.0;
@@ -50,13 +49,14 @@ class GraphEnergy {
   /// frozen: nodes that stay at rest (they leave the unknowns). Keeps references to nothing.
   void set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
               const Points& constrained, const Influences& influences, const Weights& weights);
-  /// Displacements from rest that the constrained points should have, 3 x c.
-  void set_targets(const Points& displacements);
+  GraphConstraints& constraints() { return constraints_; }
+  const GraphConstraints& constraints() const { return constraints_; }
 
   Index free_nodes() const { return static_cast<Index>(node_of_free_.size()); }
   Index unknowns() const { return 12 * free_nodes(); }
   Index rows() const { return 4 * free_nodes(); }  ///< length of one of the three parts of x
   const std::vector<Index>& node_of_free() const { return node_of_free_; }
+  const std::vector<Index>& free_of_node() const { return free_of_node_; }  ///< -1: frozen
   const std::vector<Edge>& free_edges() const { return free_edges_; }
   const Weights& weights() const { return weights_; }
 
@@ -81,15 +81,8 @@ class GraphEnergy {
   /// The constant part of half the Hessian, one 4 x 4 block a free node or edge, the same for x, y
   /// and z: w_reg A'A + w_con C'C.
   void constant_matrix(BlockMatrix& matrix) const;
-  /// C' values for values at the constraints (3 x c).
-  void constraint_rhs(const Points& values, Vector& rhs) const;
   /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry.
   void gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const;
-
-  /// Displaced positions minus targets of the constrained points, 3 x c.
-  Points constraint_residuals(const Vector& x) const;
-  /// The same as of the last `evaluate`.
-  const Points& evaluated_residuals() const { return con_; }
 
   // The four numbers of row a of free node j.
   double* entry(Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
@@ -105,44 +98,19 @@ class GraphEnergy {
     Index j, k;
     Eigen::Vector3d d;  ///< g_k - g_j
   };
-  /// One influence of a constraint: (w (v - g), w) on a free node.
-  struct Influence {
-    Index node;
-    Eigen::Vector4d coefficients;
-  };
-
-  /// One 4 x 4 block of C'C; k >= j.
-  struct ConstraintBlock {
-    Index j, k;
-    Eigen::Matrix4d block;  ///< rows of k, columns of j
-    Eigen::Matrix4d transposed;
-  };
-
-  Eigen::Vector3d constraint_residual(const Vector& x, Index l) const;
-  /// Fills constraint_blocks_. nodes: scaled positions of the free ones.
-  void gather_constraint_blocks(const Points& constrained, const Points& nodes);
   void regularization_residuals(const Vector& x, Points& reg) const;
-  void apply_constraint_blocks(const Vector& d, Vector& product) const;
   double rotation_term(const Vector& x, Index free_node) const;  ///< Rot(R_j), eq. 5
   double rotation_terms(const Vector& x) const;                  ///< eq. 6
 
   Weights weights_;
-  std::vector<Index> node_of_free_;
+  std::vector<Index> node_of_free_, free_of_node_;
   Index all_nodes_ = 0;
   std::vector<FreeEdge> edges_;
   std::vector<Edge> free_edges_;        ///< those of edges_ with two free ends
   std::vector<Index> free_edge_index_;  ///< of each of edges_, or -1
-  std::vector<Influence> influences_;
-  std::vector<std::size_t> constraint_start_;
-  Points targets_;
-  Points con_;              ///< residuals of eq. 8 at the last evaluate
+  GraphConstraints constraints_;
+  GraphConstraints::Course con_along_;
   Points reg_, reg_along_;  ///< residuals of eq. 7, two columns an edge; their change along d
-  // E_con through C'C: its cost in a step does not depend on how many points a handle has.
-  std::vector<ConstraintBlock> constraint_blocks_;
-  Vector con_rhs_;       ///< C' targets
-  Vector con_gradient_;  ///< C' (C x - targets)
-  Vector con_along_;     ///< C'C d of the last direction
-  double con_slope_ = 0.0, con_curvature_ = 0.0;
   Terms terms_;
 };
 

@@ -1,6 +1,8 @@
 // The transformations of the nodes, as displacements from rest in the solver's frame.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "pliant/core/types.h"
 
 namespace pliant::embedded {
@@ -15,6 +17,14 @@ inline Eigen::Matrix3d gradient_of(const Pose& pose, Index j) {
 
 inline Eigen::Vector3d translation_of(const Pose& pose, Index j) {
   return {pose(3, j), pose(7, j), pose(11, j)};
+}
+
+/// Derivative of the determinant, d det(R) = <cofactors, dR>, and det(R) times the inverse
+/// transpose.
+inline Eigen::Matrix3d cofactors(const Eigen::Matrix3d& r) {
+  Eigen::Matrix3d c;
+  c << r.col(1).cross(r.col(2)), r.col(2).cross(r.col(0)), r.col(0).cross(r.col(1));
+  return c;
 }
 
 /// The three vectors of unknowns of GraphEnergy, where no node is frozen.

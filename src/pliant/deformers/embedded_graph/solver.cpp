@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -40,18 +39,6 @@ double value_at(const std::array<double, 4>& cubic, double alpha) {
   return cubic[0] + alpha * (cubic[1] + alpha * (cubic[2] + alpha * cubic[3]));
 }
 
-/// Derivative of the determinant: d det(R) = <cofactors, dR>.
-Eigen::Matrix3d cofactors(const Eigen::Matrix3d& r) {
-  Eigen::Matrix3d c;
-  c << r.col(1).cross(r.col(2)), r.col(2).cross(r.col(0)), r.col(0).cross(r.col(1));
-  return c;
-}
-
-Index find_root(std::vector<Index>& parent, Index j) {
-  while (parent[j] != j) j = parent[j] = parent[parent[j]];
-  return j;
-}
-
 }  // namespace
 
 Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
@@ -67,7 +54,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   const Points g = graph.scaled(graph.nodes);
   nodes_ = g(Eigen::all, energy_.node_of_free());
   extent_ = graph.size() > 0 ? (g.rowwise().maxCoeff() - g.rowwise().minCoeff()).norm() : 0.0;
-  find_components(graph, frozen, influences);
+  find_components(graph, influences);
 
   x_.resize(3 * energy_.rows());
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
@@ -89,40 +76,30 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   return factorize_metric(graph);
 }
 
-void GraphSolver::find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
-                                  const Influences& influences) {
-  std::vector<Index> parent(graph.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& [j, k] : graph.edges) {
-    if (!frozen[j] && !frozen[k]) parent[find_root(parent, j)] = find_root(parent, k);
-  }
-  std::vector<Index> label(graph.size(), -1);
-  component_.clear();
-  components_ = 0;
-  for (Index node : energy_.node_of_free()) {
-    Index& of_root = label[find_root(parent, node)];
-    if (of_root < 0) of_root = components_++;
-    component_.push_back(of_root);
-  }
-  anchored_.assign(components_, false);
-  for (const auto& [j, k] : graph.edges) {
-    if (frozen[j] != frozen[k]) anchored_[label[find_root(parent, frozen[j] ? k : j)]] = true;
+void GraphSolver::find_components(const DeformationGraph& graph, const Influences& influences) {
+  DisjointSets sets(energy_.free_nodes());
+  for (const auto& [j, k] : energy_.free_edges()) sets.join(j, k);
+  components_ = sets.numbered();
+  const std::vector<Index>& free_of_node = energy_.free_of_node();
+  anchored_.assign(components_.count, false);
+  for (const auto& [a, b] : graph.edges) {
+    const Index j = free_of_node[a], k = free_of_node[b];
+    if ((j < 0) != (k < 0)) anchored_[components_.of[std::max(j, k)]] = true;
   }
   constraint_component_.assign(constrained_.cols(), -1);
   for (Index l = 0; l < constrained_.cols(); ++l) {
     for (int s = 0; s < influences.k && constraint_component_[l] < 0; ++s) {
       const Index node = influences.indices[static_cast<std::size_t>(l) * influences.k + s];
-      if (!frozen[node]) constraint_component_[l] = label[find_root(parent, node)];
+      if (free_of_node[node] >= 0) constraint_component_[l] = components_.of[free_of_node[node]];
     }
   }
 }
 
 Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
-  const std::vector<Index>& node_of_free = energy_.node_of_free();
-  std::vector<Index> free_of_node(graph.size(), -1), order;
-  for (Index j = 0; j < energy_.free_nodes(); ++j) free_of_node[node_of_free[j]] = j;
+  std::vector<Index> order;
   for (Index node : graph.elimination_order) {
-    if (free_of_node[node] >= 0) order.push_back(free_of_node[node]);
+    const Index j = energy_.free_of_node()[node];
+    if (j >= 0) order.push_back(j);
   }
   const bool newton = options_.kind == EmbeddedGraphSolver::gauss_newton;
   BlockMatrix metric;
@@ -148,7 +125,7 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
   displacement_ = targets - constrained_;
   shift_.setZero();
   last_violation_ = 0.0;
-  energy_.set_targets(displacement_);
+  energy_.constraints().set_targets(displacement_);
   energy_.evaluate(x_);
   if (energy_.free_nodes() == 0) return;
   const bool beyond_half_turn = std::any_of(turns.begin(), turns.end(), [](const Turn& t) {
@@ -171,7 +148,8 @@ bool GraphSolver::keep_if_lower(double previous_total) {
 
 void GraphSolver::predict_rigid() {
   // A component that nothing holds follows the best rigid motion of its handles at no cost.
-  std::vector<std::vector<Index>> floating(components_);  // constraints of components that float
+  std::vector<std::vector<Index>> floating(
+      components_.count);  // constraints of components that float
   for (Index l = 0; l < constrained_.cols(); ++l) {
     const Index c = constraint_component_[l];
     if (c >= 0 && !anchored_[c]) floating[c].push_back(l);
@@ -182,14 +160,14 @@ void GraphSolver::predict_rigid() {
   previous_ = x_;
   const double before = energy_.total();
   bool moved = false;
-  for (Index c = 0; c < components_; ++c) {
+  for (Index c = 0; c < components_.count; ++c) {
     const std::vector<Index>& members = floating[c];
     if (members.empty()) continue;
     const RigidMotion motion =
         fit_rigid_motion(now(Eigen::all, members), wanted(Eigen::all, members));
     moved = true;
     for (Index j = 0; j < energy_.free_nodes(); ++j) {
-      if (component_[j] != c) continue;
+      if (components_.of[j] != c) continue;
       const Eigen::Vector3d at = nodes_.col(j) + energy_.translation(x_, j);
       const Eigen::Vector3d shift = motion.rotation * at + motion.translation - nodes_.col(j);
       turn_node(j, motion.rotation);
@@ -233,7 +211,7 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
   // What spreads displacements over the graph spreads turns as well.
   previous_ = x_;
   const double before = energy_.total();
-  energy_.constraint_rhs(rotations, direction_);
+  energy_.constraints().transposed(rotations, direction_);
   direction_ *= options_.weights.constraint;
   metric_factor_.solve(direction_.data(), 3);
   for (Index j = 0; j < energy_.free_nodes(); ++j)
@@ -382,13 +360,14 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
 bool GraphSolver::tighten() {
   // Method of multipliers: what is missing from a target is added to it. True while that helps.
   if (!options_.exact || displacement_.cols() == 0) return false;
-  const double violation = (energy_.constraint_residuals(x_) + shift_).colwise().norm().maxCoeff();
+  const double violation =
+      (energy_.constraints().residuals(x_) + shift_).colwise().norm().maxCoeff();
   const bool met = violation <= 1e-10 * extent_;
   const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
   if (met || stuck) return false;
   last_violation_ = violation;
-  shift_ = -energy_.constraint_residuals(x_);
-  energy_.set_targets(displacement_ + shift_);
+  shift_ = -energy_.constraints().residuals(x_);
+  energy_.constraints().set_targets(displacement_ + shift_);
   energy_.evaluate(x_);
   update_gradient();
   return true;
@@ -396,7 +375,8 @@ bool GraphSolver::tighten() {
 
 Terms GraphSolver::terms() const {
   Terms terms = energy_.terms();
-  if (options_.exact) terms.constraint = (energy_.constraint_residuals(x_) + shift_).squaredNorm();
+  if (options_.exact)
+    terms.constraint = (energy_.constraints().residuals(x_) + shift_).squaredNorm();
   return terms;
 }
 

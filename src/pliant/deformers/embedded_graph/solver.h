@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include "pliant/core/disjoint_sets.h"
 #include "pliant/core/status.h"
 #include "pliant/deformers/embedded_graph/energy.h"
 #include "pliant/deformers/embedded_graph/pose.h"
@@ -60,8 +61,7 @@ class GraphSolver {
   void store(Pose& pose) const;
 
  private:
-  void find_components(const DeformationGraph& graph, const std::vector<bool>& frozen,
-                       const Influences& influences);
+  void find_components(const DeformationGraph& graph, const Influences& influences);
   Status factorize_metric(const DeformationGraph& graph);
   void predict_rigid();
   void predict_turns(const std::vector<Turn>& turns, bool as_told);
@@ -82,7 +82,7 @@ class GraphSolver {
   bool tighten();
   /// Scaled positions of the constrained points, where the energy was last evaluated.
   Points constrained_now() const {
-    return constrained_ + displacement_ + shift_ + energy_.evaluated_residuals();
+    return constrained_ + displacement_ + shift_ + energy_.constraints().evaluated();
   }
 
   SolverOptions options_;
@@ -93,10 +93,9 @@ class GraphSolver {
   Points displacement_;  ///< wanted, from rest
   Points shift_;         ///< of the targets, accumulated: multipliers of the exact constraints
   double last_violation_ = 0.0;
-  std::vector<Index> component_;  ///< of each free node, in the graph of free nodes
-  std::vector<bool> anchored_;    ///< components that touch a frozen node
+  DisjointSets::Numbered components_;  ///< of the free nodes, in their graph
+  std::vector<bool> anchored_;         ///< components that touch a frozen node
   std::vector<Index> constraint_component_;
-  Index components_ = 0;
 
   Vector x_, gradient_, direction_, previous_, step_, change_;
   BlockMatrix constant_, newton_;
