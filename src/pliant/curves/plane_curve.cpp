@@ -29,6 +29,25 @@ double locate(const std::vector<double>& knots, double x, std::size_t& k) {
   return width > 0.0 ? std::clamp((x - knots[k]) / width, 0.0, 1.0) : 0.0;
 }
 
+std::vector<double> even_places(double length, Index nodes) {
+  std::vector<double> places(nodes);
+  for (Index i = 0; i < nodes; ++i) places[i] = length * i / (nodes - 1);
+  return places;
+}
+
+/// The points at ascending places along the line.
+Polyline at_places(const Polyline& line, const std::vector<double>& along,
+                   const std::vector<double>& places) {
+  Polyline result(2, static_cast<Index>(places.size()));
+  std::size_t k = 0;
+  for (Index i = 0; i < result.cols(); ++i) {
+    const double share = locate(along, places[i], k);
+    const auto at = static_cast<Index>(k);
+    result.col(i) = (1.0 - share) * line.col(at) + share * line.col(at + 1);
+  }
+  return result;
+}
+
 }  // namespace
 
 double angle_between(double a, double b) {
@@ -45,25 +64,25 @@ double linear_in(const std::vector<double>& values, double s) {
 
 double length_of(const Polyline& line) { return lengths_along(line).back(); }
 
+Polyline sampled(const Polyline& line, Index nodes) {
+  assert(line.cols() >= 2 && nodes >= 2);
+  const std::vector<double> along = lengths_along(line);
+  return at_places(line, along, even_places(along.back(), nodes));
+}
+
 Polyline resampled(const Polyline& line, Index nodes) {
   assert(line.cols() >= 2 && nodes >= 2);
   const std::vector<double> along = lengths_along(line);
-  Polyline result(2, nodes);
-  std::vector<double> places(nodes);
-  for (Index i = 0; i < nodes; ++i) places[i] = along.back() * i / (nodes - 1);
+  std::vector<double> places = even_places(along.back(), nodes);
+  Polyline result;
   // Chords across a bend are shorter than the line: places move until all are equal.
   for (int round = 0; round < max_rounds; ++round) {
-    std::size_t k = 0;
-    for (Index i = 0; i < nodes; ++i) {
-      const double share = locate(along, places[i], k);
-      const auto at = static_cast<Index>(k);
-      result.col(i) = (1.0 - share) * line.col(at) + share * line.col(at + 1);
-    }
+    result = at_places(line, along, places);
     const std::vector<double> chords = lengths_along(result);
     const double step = chords.back() / (nodes - 1);
     double worst = 0.0;
     std::vector<double> moved = places;
-    k = 0;
+    std::size_t k = 0;
     for (Index i = 1; i + 1 < nodes; ++i) {
       worst = std::max(worst, std::abs(chords[i] - step * i));
       const double share = locate(chords, step * i, k);

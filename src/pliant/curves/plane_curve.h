@@ -15,6 +15,10 @@ using Polyline = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 /// Sum of the lengths of the segments.
 double length_of(const Polyline& line);
 
+/// `nodes` >= 2 points at equal distances along the line, both ends among them. Chords across a
+/// bend are shorter than others.
+Polyline sampled(const Polyline& line, Index nodes);
+
 /// `nodes` >= 2 points along the line with both ends kept, all segments equally long (to 1e-6).
 /// `line` has at least two points and some length.
 Polyline resampled(const Polyline& line, Index nodes);

@@ -54,11 +54,10 @@ std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const 
 
 }  // namespace
 
-Limb::Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored)
+Limb::Limb(SeenShape seen, LaidStroke stroke, Region region)
     : seen_(std::move(seen)),
       stroke_(std::move(stroke)),
       region_(std::move(region)),
-      mirrored_(mirrored),
       points_(static_cast<Index>(seen_.view.cols())),
       pose_(SketchPose::rest(stroke_.curve)),
       angles_(2, 0.0) {

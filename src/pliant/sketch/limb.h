@@ -15,8 +15,8 @@ namespace pliant {
 /// Arrays over the shape's points, and after them points added between two others (refinement).
 class Limb {
  public:
-  /// mirrored: the camera is a reflected one. `set_smooth` is to be called before the first pose.
-  Limb(SeenShape seen, LaidStroke stroke, Region region, bool mirrored);
+  /// `set_smooth` is to be called before the first pose.
+  Limb(SeenShape seen, LaidStroke stroke, Region region);
 
   const PlaneCurve& reference() const { return stroke_.curve; }
   const Region& region() const { return region_; }
@@ -80,7 +80,6 @@ class Limb {
   SeenShape seen_;
   LaidStroke stroke_;
   Region region_;
-  bool mirrored_;
   bool smooth_ = false;
   Index points_ = 0;           ///< of the shape
   std::vector<Index> free_;    ///< points of the region, along the curve
@@ -93,7 +92,7 @@ class Limb {
   ParameterSmoother smoother_;
   std::vector<double> raw_, pins_, solved_;
   SketchPose pose_;
-  double tolerance_ = 1e-8;  ///< of the parameters of pose_
+  double tolerance_ = 1e-8;     ///< of the parameters of pose_
   std::vector<double> angles_;  ///< theta of eq. 5, evenly over s, of the whole pose
   Points joints_;
 };

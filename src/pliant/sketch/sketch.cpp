@@ -77,10 +77,10 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
 }
 
 /// A filtered stroke on a shape seen through a camera, with a region given.
-Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region, bool mirrored) {
+Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region) {
   Result<LaidStroke> laid = lay_stroke(seen, pixels);
   if (!laid.ok()) return laid.status();
-  return Limb(std::move(seen), std::move(*laid), std::move(region), mirrored);
+  return Limb(std::move(seen), std::move(*laid), std::move(region));
 }
 
 /// The same with a region chosen. What of the stroke lies before the region is dropped, and
@@ -92,10 +92,10 @@ Result<Limb> limb_under(SeenShape seen, const Polyline& pixels,
   Result<Region> region = choose_region(seen, *laid, partitions);
   if (!region.ok()) return region.status();
   if (mirrored || region->start == 0.0) {
-    return Limb(std::move(seen), std::move(*laid), std::move(*region), mirrored);
+    return Limb(std::move(seen), std::move(*laid), std::move(*region));
   }
   start = region->start;
-  return limb_over(std::move(seen), without_start(pixels, start), std::move(*region), mirrored);
+  return limb_over(std::move(seen), without_start(pixels, start), std::move(*region));
 }
 
 Status check_apart(const Region& a, const Region& b) {
@@ -204,7 +204,7 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
     Result<Limb> limb =
         options.labels.empty()
             ? limb_under(std::move(seen), pixels, options.partitions, mirrored, impl->start)
-            : limb_over(std::move(seen), pixels, given, mirrored);
+            : limb_over(std::move(seen), pixels, given);
     if (!limb.ok()) return limb.status();
     impl->limbs.push_back(std::move(*limb));
   }
@@ -227,7 +227,7 @@ Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
   for (std::size_t k = 0; k < impl_->limbs.size(); ++k) {
     Result<Limb> limb =
         limb_over(seen_through(k == 0 ? camera : camera.mirrored(*impl_->mirror), *impl_->shape),
-                  pixels, impl_->limbs[k].region(), k == 1);
+                  pixels, impl_->limbs[k].region());
     if (!limb.ok()) return limb.status();
     limbs.push_back(std::move(*limb));
   }

@@ -45,25 +45,6 @@ Polyline averaged(const Polyline& line, double spacing) {
   return result;
 }
 
-/// `samples` points at equal distances along the line.
-Polyline dense(const Polyline& line, Index samples, double length) {
-  Polyline result(2, samples);
-  Index k = 0;
-  double before = 0.0;  // length up to line.col(k)
-  for (Index i = 0; i < samples; ++i) {
-    const double place = length * i / (samples - 1);
-    double segment = (line.col(k + 1) - line.col(k)).norm();
-    while (k + 2 < line.cols() && before + segment < place) {
-      before += segment;
-      ++k;
-      segment = (line.col(k + 1) - line.col(k)).norm();
-    }
-    const double share = segment > 0.0 ? std::clamp((place - before) / segment, 0.0, 1.0) : 0.0;
-    result.col(i) = (1.0 - share) * line.col(k) + share * line.col(k + 1);
-  }
-  return result;
-}
-
 }  // namespace
 
 Status check_stroke(const Stroke& stroke, const char* argument) {
@@ -101,7 +82,7 @@ Stroke filtered(const Stroke& stroke, Index nodes) {
   const Index samples = static_cast<Index>(
       std::clamp(std::ceil(length), 4.0 * nodes, static_cast<double>(max_samples)));
   const double spacing = length / (samples - 1);
-  return resampled(averaged(dense(stroke, samples, length), spacing), nodes);
+  return resampled(averaged(sampled(stroke, samples), spacing), nodes);
 }
 
 Stroke without_start(const Stroke& stroke, double share) {
