@@ -31,6 +31,7 @@ class Reporter {
 void bench_embedded_graph(const Reporter& reporter);
 void bench_arap(const Reporter& reporter);
 void bench_edge_material(const Reporter& reporter);
+void bench_sketch(const Reporter& reporter);
 void bench_cgal(const Reporter& reporter);  ///< only where CMake finds CGAL
 
 }  // namespace pliant::bench

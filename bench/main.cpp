@@ -5,6 +5,7 @@ int main(int argc, char** argv) {
   pliant::bench::bench_embedded_graph(reporter);
   pliant::bench::bench_arap(reporter);
   pliant::bench::bench_edge_material(reporter);
+  pliant::bench::bench_sketch(reporter);
 #ifdef PLIANT_BENCH_CGAL
   pliant::bench::bench_cgal(reporter);
 #endif
