@@ -113,61 +113,21 @@ void solve_below(const double* l, double* b, std::ptrdiff_t ld, int rows, int n)
   }
 }
 
-/// One row of forward substitution: y[row] - sum over k < limit of L[row, k] y[k].
-template <int Columns>
-void forward_row(const double* panel, int rows, int row, int limit, double* y) {
-  double sum[Columns] = {};
-  for (int k = 0; k < limit; ++k) {
-    const double l = panel[static_cast<std::ptrdiff_t>(k) * rows + row];
-    for (int c = 0; c < Columns; ++c) sum[c] += l * y[c * rows + k];
-  }
-  for (int c = 0; c < Columns; ++c) y[c * rows + row] -= sum[c];
-}
-
-/// Four rows at once: the same for rows [row, row + 4).
-template <int Columns>
-void forward_tile(const double* panel, int rows, int row, int limit, double* y) {
-  Vec2 sum[2][Columns] = {};
-  const double *l = panel + row, *known[Columns];
-  for (int c = 0; c < Columns; ++c) known[c] = y + static_cast<std::ptrdiff_t>(c) * rows;
-  for (std::ptrdiff_t k = 0; k < limit; ++k, l += rows) {
-    const Vec2 l0 = load2(l), l1 = load2(l + 2);
-    for (int c = 0; c < Columns; ++c) {
-      const Vec2 x = splat2(known[c][k]);
-      sum[0][c] += l0 * x;
-      sum[1][c] += l1 * x;
-    }
-  }
-  for (int c = 0; c < Columns; ++c) {
-    double* target = y + c * rows + row;
-    store2(target, load2(target) - sum[0][c]);
-    store2(target + 2, load2(target + 2) - sum[1][c]);
-  }
-}
-
-/// Sums over rows >= from of L[i, column + 0..1] y[i], for two columns of a panel.
-template <int Columns>
-void backward_pair(const double* panel, int rows, int column, int from, const double* y,
-                   double (&sum)[2][Columns]) {
-  const double* a = panel + static_cast<std::ptrdiff_t>(column) * rows;
-  const double *b = a + rows, *known[Columns];
-  for (int c = 0; c < Columns; ++c) known[c] = y + static_cast<std::ptrdiff_t>(c) * rows;
-  Vec2 partial[2][Columns] = {};
-  std::ptrdiff_t i = from;
-  for (; i + 2 <= rows; i += 2) {
-    const Vec2 la = load2(a + i), lb = load2(b + i);
-    for (int c = 0; c < Columns; ++c) {
-      const Vec2 yi = load2(known[c] + i);
-      partial[0][c] += la * yi;
-      partial[1][c] += lb * yi;
-    }
-  }
-  for (int c = 0; c < Columns; ++c) {
-    sum[0][c] = partial[0][c][0] + partial[0][c][1];
-    sum[1][c] = partial[1][c][0] + partial[1][c][1];
-    if (i < rows) {
-      sum[0][c] += a[i] * known[c][i];
-      sum[1][c] += b[i] * known[c][i];
+/// The inverse of a triangle of n <= kPanelBlock columns in its place, zeros above the diagonal.
+void invert_diagonal(double* l, std::ptrdiff_t ld, int n) {
+  double pivot[kPanelBlock];
+  for (int j = 0; j < n; ++j) pivot[j] = 1.0 / l[j * ld + j];
+  for (int j = 0; j < n; ++j) {
+    double* column = l + j * ld;
+    for (int i = 0; i < j; ++i) column[i] = 0.0;
+    column[j] = pivot[j];
+    // Column j of the inverse from L x = e_j; the columns before it are inverted already, those
+    // after it are not.
+    for (int i = j + 1; i < n; ++i) column[i] *= column[j];
+    for (int k = j + 1; k < n; ++k) {
+      const double* known = l + k * ld;
+      column[k] *= -pivot[k];
+      for (int i = k + 1; i < n; ++i) column[i] += known[i] * column[k];
     }
   }
 }
@@ -185,6 +145,7 @@ bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, do
       pack(diagonal + n, ld, below, n, packed);
       subtract_packed(panel + (k + n) * ld + k + n, ld, packed, below, columns - k - n, n);
     }
+    invert_diagonal(diagonal, ld, n);
   }
   return true;
 }
@@ -197,58 +158,5 @@ void subtract_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff
     subtract_packed(c, ldc, packed, n, n, some);
   }
 }
-
-template <int Columns>
-void forward_panel(const double* panel, int rows, int columns, double* y) {
-  int i = 0;
-  for (; i + 4 <= columns; i += 4) {
-    forward_tile<Columns>(panel, rows, i, i, y);
-    for (int r = i; r < i + 4; ++r) {
-      const double* l = panel + r;
-      for (int c = 0; c < Columns; ++c) {
-        double s = y[c * rows + r];
-        for (int k = i; k < r; ++k) s -= l[static_cast<std::ptrdiff_t>(k) * rows] * y[c * rows + k];
-        y[c * rows + r] = s / l[static_cast<std::ptrdiff_t>(r) * rows];
-      }
-    }
-  }
-  for (; i < columns; ++i) {
-    forward_row<Columns>(panel, rows, i, i, y);
-    const double pivot = panel[static_cast<std::ptrdiff_t>(i) * rows + i];
-    for (int c = 0; c < Columns; ++c) y[c * rows + i] /= pivot;
-  }
-  for (; i + 4 <= rows; i += 4) forward_tile<Columns>(panel, rows, i, columns, y);
-  for (; i < rows; ++i) forward_row<Columns>(panel, rows, i, columns, y);
-}
-
-template <int Columns>
-void backward_panel(const double* panel, int rows, int columns, double* y) {
-  int j = columns;
-  if (j % 2 != 0) {
-    --j;
-    const double* l = panel + static_cast<std::ptrdiff_t>(j) * rows;
-    for (int c = 0; c < Columns; ++c) {
-      double s = y[c * rows + j];
-      for (int i = j + 1; i < rows; ++i) s -= l[i] * y[c * rows + i];
-      y[c * rows + j] = s / l[j];
-    }
-  }
-  for (j -= 2; j >= 0; j -= 2) {
-    double sum[2][Columns];
-    backward_pair<Columns>(panel, rows, j, j + 2, y, sum);
-    const double* a = panel + static_cast<std::ptrdiff_t>(j) * rows;
-    const double* b = a + rows;
-    for (int c = 0; c < Columns; ++c) {
-      double* column = y + c * rows;
-      column[j + 1] = (column[j + 1] - sum[1][c]) / b[j + 1];
-      column[j] = (column[j] - sum[0][c] - a[j + 1] * column[j + 1]) / a[j];
-    }
-  }
-}
-
-template void forward_panel<1>(const double*, int, int, double*);
-template void forward_panel<3>(const double*, int, int, double*);
-template void backward_panel<1>(const double*, int, int, double*);
-template void backward_panel<3>(const double*, int, int, double*);
 
 }  // namespace pliant::dense

@@ -32,20 +32,12 @@ inline constexpr int kPanelBlock = 16;
 inline std::size_t packed_size(std::size_t rows) { return (rows + 3) / 4 * 4 * kPanelBlock; }
 
 /// Cholesky of the first `columns` columns of a trapezoid of `rows` rows (leading dimension ld):
-/// the top becomes L11, the rest L21. Returns false when a pivot is not positive.
+/// the top becomes L11, with its diagonal blocks of kPanelBlock columns replaced by their inverses
+/// (and zeros above), the rest L21. Returns false when a pivot is not positive.
 bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, double* packed);
 
 /// c -= a a' on the lower triangle of c (n x n); a is n x depth.
 void subtract_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
                     int depth, double* packed);
-
-/// Forward substitution with a panel [L11; L21] on `Columns` right-hand sides y (stride `rows`
-/// each): y1 <- L11^-1 y1, y2 <- y2 - L21 y1.
-template <int Columns>
-void forward_panel(const double* panel, int rows, int columns, double* y);
-
-/// Backward substitution: y1 <- L11^-T (y1 - L21' y2).
-template <int Columns>
-void backward_panel(const double* panel, int rows, int columns, double* y);
 
 }  // namespace pliant::dense

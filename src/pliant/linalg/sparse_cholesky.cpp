@@ -8,6 +8,7 @@
 #include "pliant/linalg/dense_kernels.h"
 #include "pliant/linalg/elimination.h"
 #include "pliant/linalg/ordering.h"
+#include "pliant/linalg/substitution.h"
 
 namespace pliant {
 
@@ -183,6 +184,12 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
                 " MiB; expected at most " + std::to_string(max_bytes >> 20)};
   }
   place_entries(matrix);
+  panels_.clear();
+  below_.clear();
+  for (const Supernode& node : supernodes_) {
+    panels_.push_back({node.factor, node.first, node.width, static_cast<Index>(node.rows.size())});
+    below_.insert(below_.end(), node.rows.begin(), node.rows.end());
+  }
   std::size_t tallest = 0;
   for (const Supernode& node : supernodes_) {
     tallest = std::max(tallest, static_cast<std::size_t>(node.height()) * block_);
@@ -190,8 +197,8 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   factor_.resize(factor_size_);
   stack_.resize(stack);
   waiting_.reserve(supernodes_.size());
-  work_.resize(std::max(dense::packed_size(tallest), 3 * tallest));
-  gathered_.resize(static_cast<std::size_t>(rows()) * 3);
+  work_.resize(std::max(dense::packed_size(tallest), dense::Three::stride * tallest));
+  gathered_.assign(static_cast<std::size_t>(rows()) * dense::Three::stride, 0.0);
   return {};
 }
 
@@ -284,48 +291,50 @@ inline double* copy_block(const double* from, std::size_t n, double* to) {
   return to + n;
 }
 
-template <int Columns, int Block>
+template <class Lanes, int Block>
 void SparseCholesky::solve_some(double* x) {
-  const std::size_t n = static_cast<std::size_t>(rows());
-  const std::size_t b = Block > 0 ? Block : block_;
-  for (int c = 0; c < Columns; ++c) {
-    for (Index j = 0; j < nodes_; ++j) {
-      copy_block(x + c * n + j * b, b, gathered_.data() + c * n + position_[j] * b);
+  constexpr std::size_t stride = Lanes::stride;
+  const std::size_t n = static_cast<std::size_t>(rows()), b = Block > 0 ? Block : block_;
+  double* z = gathered_.data();
+  double* below = work_.data();
+  for (Index j = 0; j < nodes_; ++j) {
+    const double* from = x + j * b;
+    double* to = z + position_[j] * b * stride;
+    for (std::size_t r = 0; r < b; ++r) {
+      for (int c = 0; c < Lanes::columns; ++c) to[r * stride + c] = from[c * n + r];
     }
   }
-  double* z = gathered_.data();
-  double* y = work_.data();
-  for (const Supernode& node : supernodes_) {
-    const std::size_t height = node.height() * b, columns = node.width * b;
-    for (int c = 0; c < Columns; ++c) {
-      std::copy_n(z + c * n + node.first * b, columns, y + c * height);
-      std::fill_n(y + c * height + columns, height - columns, 0.0);
-    }
-    dense::forward_panel<Columns>(factor_.data() + node.factor, static_cast<int>(height),
-                                  static_cast<int>(columns), y);
-    for (int c = 0; c < Columns; ++c) {
-      std::copy_n(y + c * height, columns, z + c * n + node.first * b);
-      const double* below = y + c * height + columns;
-      for (Index row : node.rows) {
-        for (std::size_t r = 0; r < b; ++r) z[c * n + row * b + r] += *below++;
+  const Index* row = below_.data();
+  for (const Panel& panel : panels_) {
+    dense::forward_panel<Lanes>(factor_.data() + panel.factor,
+                                static_cast<int>((panel.width + panel.rows) * b),
+                                static_cast<int>(panel.width * b), z + panel.first * b * stride,
+                                below);
+    const double* from = below;
+    for (Index i = 0; i < panel.rows; ++i, ++row) {
+      double* to = z + *row * b * stride;
+      for (std::size_t r = 0; r < b; ++r, from += stride, to += stride) {
+        Lanes value = Lanes::load(to);
+        value.subtract(Lanes::load(from));
+        value.store(to);
       }
     }
   }
-  for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-    const std::size_t height = node->height() * b, columns = node->width * b;
-    for (int c = 0; c < Columns; ++c) {
-      std::copy_n(z + c * n + node->first * b, columns, y + c * height);
-      double* below = y + c * height + columns;
-      for (Index row : node->rows) below = copy_block(z + c * n + row * b, b, below);
-    }
-    dense::backward_panel<Columns>(factor_.data() + node->factor, static_cast<int>(height),
-                                   static_cast<int>(columns), y);
-    for (int c = 0; c < Columns; ++c)
-      std::copy_n(y + c * height, columns, z + c * n + node->first * b);
+  for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
+    row -= panel->rows;
+    double* to = below;
+    for (Index i = 0; i < panel->rows; ++i)
+      to = copy_block(z + row[i] * b * stride, b * stride, to);
+    dense::backward_panel<Lanes>(factor_.data() + panel->factor,
+                                 static_cast<int>((panel->width + panel->rows) * b),
+                                 static_cast<int>(panel->width * b), z + panel->first * b * stride,
+                                 below);
   }
-  for (int c = 0; c < Columns; ++c) {
-    for (Index j = 0; j < nodes_; ++j) {
-      copy_block(gathered_.data() + c * n + position_[j] * b, b, x + c * n + j * b);
+  for (Index j = 0; j < nodes_; ++j) {
+    const double* from = z + position_[j] * b * stride;
+    double* to = x + j * b;
+    for (std::size_t r = 0; r < b; ++r) {
+      for (int c = 0; c < Lanes::columns; ++c) to[c * n + r] = from[r * stride + c];
     }
   }
 }
@@ -335,14 +344,14 @@ void SparseCholesky::solve(double* x, int columns) {
   int c = 0;
   for (; c + 3 <= columns; c += 3) {
     if (block_ == 1) {
-      solve_some<3, 1>(x + c * n);
+      solve_some<dense::Three, 1>(x + c * n);
     } else if (block_ == 4) {
-      solve_some<3, 4>(x + c * n);
+      solve_some<dense::Three, 4>(x + c * n);
     } else {
-      solve_some<3, 0>(x + c * n);
+      solve_some<dense::Three, 0>(x + c * n);
     }
   }
-  for (; c < columns; ++c) solve_some<1, 0>(x + c * n);
+  for (; c < columns; ++c) solve_some<dense::One, 0>(x + c * n);
 }
 
 }  // namespace pliant

@@ -56,6 +56,11 @@ class SparseCholesky {
     std::size_t factor = 0;   ///< offset of its panel in factor_
     Index height() const { return width + static_cast<Index>(rows.size()); }
   };
+  /// What solving reads of a supernode, close together; its rows below follow one another in below_.
+  struct Panel {
+    std::size_t factor;
+    Index first, width, rows;
+  };
   /// Where a block of the matrix lands: front position of its row and column, transposed or not.
   struct Entry {
     Index source;  ///< edge, or -1 - node for a diagonal block
@@ -74,8 +79,8 @@ class SparseCholesky {
   /// Adds a child's update matrix to its parent's front: `panel` and, below it, `update`.
   void extend_add(const Supernode& child, const Supernode& parent, const double* source,
                   double* panel, double* update) const;
-  /// Block: block_ where the compiler may know it, else 0.
-  template <int Columns, int Block>
+  /// Lanes: see substitution.h. Block: block_ where the compiler may know it, else 0.
+  template <class Lanes, int Block>
   void solve_some(double* x);
 
   int block_ = 1;
@@ -83,12 +88,14 @@ class SparseCholesky {
   std::vector<Index> position_;  ///< node -> place in elimination order
   std::vector<Supernode> supernodes_;
   std::vector<Index> supernode_of_;  ///< place -> supernode
+  std::vector<Panel> panels_;
+  std::vector<Index> below_;
   std::vector<std::vector<Entry>> entries_;
   std::vector<double> factor_;
   std::vector<double> stack_;
   std::vector<Index> waiting_;  ///< supernodes whose update matrix is on stack_
   std::vector<double> work_;
-  std::vector<double> gathered_;
+  std::vector<double> gathered_;  ///< right-hand sides in elimination order, as Lanes has them
   std::size_t factor_size_ = 0;
 };
 

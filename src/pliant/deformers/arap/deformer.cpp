@@ -63,11 +63,10 @@ State Arap::save() const {
   const arap::ArapModel& model = *impl_->model;
   State state;
   StateTable i{"edges/i", 1, true, {}}, j{"edges/j", 1, true, {}},
-      weight{"edges/weight", 1, false, {}};
+      weight{"edges/weight", 1, false, model.spoke_weights()};
   for (std::size_t e = 0; e < model.edges().size(); ++e) {
     i.data.push_back(shape().vertex_of_point()[model.edges()[e][0]]);
     j.data.push_back(shape().vertex_of_point()[model.edges()[e][1]]);
-    weight.data.push_back(model.spoke_weight(e));
   }
   for (StateTable* table : {&i, &j, &weight}) state.tables.push_back(std::move(*table));
   evaluate_terms();  // rotations of the present points

@@ -15,6 +15,12 @@ namespace {
 constexpr double kLeastMetric = 1e-6;
 
 using ConstMatrix = Eigen::Map<const Eigen::Matrix3d>;
+using dense::Vec2;
+
+const double* at(const Points& x, Index point) {
+  return x.data() + 3 * static_cast<std::ptrdiff_t>(point);
+}
+double* at(Points& x, Index point) { return x.data() + 3 * static_cast<std::ptrdiff_t>(point); }
 
 Eigen::Vector3d laplacian(const std::vector<std::pair<Index, double>>& entries, Index point,
                           const Points& x) {
@@ -32,23 +38,44 @@ ArapModel::ArapModel(const Shape& shape, const ArapOptions& options)
   const EdgeTable table = unique_edges(triangles, static_cast<Index>(rest_.cols()));
   const std::vector<double> weights = cotangent_weights(cotangents, triangles, table);
   const bool rims = options.energy == ArapEnergy::spokes_and_rims;
+  cells_a_spoke_ = rims ? 4 : 2;
   edges_ = table.ends;
-  first_cell_.push_back(0);
   for (Index e = 0; e < table.size(); ++e) {
     const auto [a, b] = edges_[e];
-    for (int k = 0; k < 3; ++k) rest_edges_.push_back(rest_(k, a) - rest_(k, b));
-    const double weight = rims ? weights[e] : std::max(weights[e], 0.0);
-    cells_.push_back({a, weight});
-    cells_.push_back({b, weight});
+    const Eigen::Vector3d rest = rest_.col(a) - rest_.col(b);
+    const Spoke bare{{a, b, a, b}, {0.0, 0.0, 0.0}, {rest[0], rest[1], rest[2]}};
+    spokes_.push_back(bare);
+    spokes_.back().weights[0] = rims ? weights[e] : std::max(weights[e], 0.0);
+    if (!rims) continue;
+    int across = 0;
     for (Index t : table.triangles.row(e)) {
-      if (!rims) break;
+      if (across == 2) {
+        spokes_.push_back(bare);
+        across = 0;
+      }
       const int c = corner_across(triangles, t, a, b);
-      cells_.push_back({triangles(c, t), cotangents(c, t)});
+      spokes_.back().cells[2 + across] = triangles(c, t);
+      spokes_.back().weights[1 + across] = cotangents(c, t);
+      ++across;
     }
-    first_cell_.push_back(cells_.size());
   }
   if (options.smoothness > 0.0) add_rows(triangles, table, cotangents, weights, options.smoothness);
   covariances_.resize(9, rest_.cols());
+}
+
+template <class F>
+void ArapModel::for_spokes(F f) const {
+  std::size_t edge = 0;
+  for (const Spoke& spoke : spokes_) {
+    if (spoke.cells[0] != edges_[edge][0] || spoke.cells[1] != edges_[edge][1]) ++edge;
+    f(spoke, edge);
+  }
+}
+
+std::vector<double> ArapModel::spoke_weights() const {
+  std::vector<double> weights(edges_.size(), 0.0);
+  for_spokes([&](const Spoke& spoke, std::size_t edge) { weights[edge] += spoke.weights[0]; });
+  return weights;
 }
 
 void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
@@ -83,11 +110,12 @@ void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
 BlockMatrix ArapModel::matrix() const {
   BlockMatrix matrix;
   matrix.set_zero(1, static_cast<Index>(rest_.cols()), edges_);
+  std::fill(matrix.off_diagonal.begin(), matrix.off_diagonal.end(), -kLeastMetric);
+  for_spokes([&](const Spoke& spoke, std::size_t edge) {
+    matrix.off_diagonal[edge] -= 2.0 * spoke.weights[0] + spoke.weights[1] + spoke.weights[2];
+  });
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    double weight = kLeastMetric;
-    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) weight += cells_[c].weight;
-    matrix.off_diagonal[e] = -weight;
-    for (Index end : edges_[e]) matrix.diagonal[end] += weight;
+    for (Index end : edges_[e]) matrix.diagonal[end] -= matrix.off_diagonal[e];
   }
   if (rows_.empty()) return matrix;
 
@@ -116,21 +144,21 @@ BlockMatrix ArapModel::matrix() const {
 
 double ArapModel::evaluate(const Points& x, Points& half_gradient) {
   covariances_.setZero();
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const double* a = x.data() + 3 * edges_[e][0];
-    const double* b = x.data() + 3 * edges_[e][1];
-    const double* rest = &rest_edges_[3 * e];
+  for (const Spoke& spoke : spokes_) {
+    const double* a = at(x, spoke.cells[0]);
+    const double* b = at(x, spoke.cells[1]);
     double product[9];
     for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) product[3 * c + r] = (a[r] - b[r]) * rest[c];
+      for (int r = 0; r < 3; ++r) product[3 * c + r] = (a[r] - b[r]) * spoke.rest[c];
     }
-    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
-      double* s = covariances_.data() + 9 * static_cast<std::ptrdiff_t>(cells_[c].point);
-      const dense::Vec2 weight = dense::splat2(cells_[c].weight);
+    for (int c = 0; c < cells_a_spoke_; ++c) {
+      double* s = covariances_.data() + 9 * static_cast<std::ptrdiff_t>(spoke.cells[c]);
+      const double weight = spoke.weight_of(c);
+      const Vec2 weights = dense::splat2(weight);
       for (int k = 0; k < 8; k += 2) {
-        dense::store2(s + k, dense::load2(s + k) + weight * dense::load2(product + k));
+        dense::store2(s + k, dense::load2(s + k) + weights * dense::load2(product + k));
       }
-      s[8] += cells_[c].weight * product[8];
+      s[8] += weight * product[8];
     }
   }
   for (const Row& row : rows_) {
@@ -155,34 +183,50 @@ void ArapModel::turned_gradient(const Points& from, const Rotations& turns, cons
   residuals(from, turns, x, half_gradient);
 }
 
+double ArapModel::edge_residuals(const Points& from, const Rotations& turns, const Points& x,
+                                 Points& half_gradient) const {
+  // Two cells at a time: their first two coordinates each, and the third of both.
+  Vec2 sum = {};
+  const bool at_rest = &from == &rest_;
+  for (const Spoke& spoke : spokes_) {
+    const double *a = at(x, spoke.cells[0]), *b = at(x, spoke.cells[1]);
+    const Vec2 now = dense::load2(a) - dense::load2(b), now_z = dense::splat2(a[2] - b[2]);
+    Vec2 before[3];
+    for (int k = 0; k < 3; ++k) {
+      before[k] = dense::splat2(
+          at_rest ? spoke.rest[k] : at(from, spoke.cells[0])[k] - at(from, spoke.cells[1])[k]);
+    }
+    Vec2 force = {}, force_z = {};
+    for (int c = 0; c < cells_a_spoke_; c += 2) {
+      const double* one = turns.data() + 9 * static_cast<std::ptrdiff_t>(spoke.cells[c]);
+      const double* two = turns.data() + 9 * static_cast<std::ptrdiff_t>(spoke.cells[c + 1]);
+      Vec2 d_one = now, d_two = now, d_z = now_z;
+      for (int k = 0; k < 3; ++k) {
+        d_one -= dense::load2(one + 3 * k) * before[k];
+        d_two -= dense::load2(two + 3 * k) * before[k];
+        d_z -= Vec2{one[3 * k + 2], two[3 * k + 2]} * before[k];
+      }
+      const double w_one = spoke.weight_of(c), w_two = spoke.weight_of(c + 1);
+      const Vec2 f_one = w_one * d_one, f_two = w_two * d_two, f_z = Vec2{w_one, w_two} * d_z;
+      sum += f_one * d_one + f_two * d_two + f_z * d_z;
+      force += f_one + f_two;
+      force_z += f_z;
+    }
+    const double z = force_z[0] + force_z[1];
+    double *to_a = at(half_gradient, spoke.cells[0]), *to_b = at(half_gradient, spoke.cells[1]);
+    dense::store2(to_a, dense::load2(to_a) + force);
+    to_a[2] += z;
+    dense::store2(to_b, dense::load2(to_b) - force);
+    to_b[2] -= z;
+  }
+  return sum[0] + sum[1];
+}
+
 std::array<double, 2> ArapModel::residuals(const Points& from, const Rotations& turns,
                                            const Points& x, Points& half_gradient) const {
   half_gradient.setZero(3, x.cols());
-  double edges = 0.0, rows = 0.0;
-  const bool at_rest = &from == &rest_;
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const std::ptrdiff_t a = 3 * static_cast<std::ptrdiff_t>(edges_[e][0]);
-    const std::ptrdiff_t b = 3 * static_cast<std::ptrdiff_t>(edges_[e][1]);
-    double before[3], now[3], force[3] = {};
-    for (int k = 0; k < 3; ++k) {
-      before[k] = at_rest ? rest_edges_[3 * e + k] : from.data()[a + k] - from.data()[b + k];
-      now[k] = x.data()[a + k] - x.data()[b + k];
-    }
-    for (std::size_t c = first_cell_[e]; c < first_cell_[e + 1]; ++c) {
-      const double* turn = turns.data() + 9 * static_cast<std::ptrdiff_t>(cells_[c].point);
-      const double weight = cells_[c].weight;
-      for (int k = 0; k < 3; ++k) {
-        const double d =
-            now[k] - (turn[k] * before[0] + turn[3 + k] * before[1] + turn[6 + k] * before[2]);
-        edges += weight * d * d;
-        force[k] += weight * d;
-      }
-    }
-    for (int k = 0; k < 3; ++k) {
-      half_gradient.data()[a + k] += force[k];
-      half_gradient.data()[b + k] -= force[k];
-    }
-  }
+  const double edges = edge_residuals(from, turns, x, half_gradient);
+  double rows = 0.0;
   for (const Row& row : rows_) {
     const Eigen::Vector3d d =
         laplacian(row.entries, row.point, x) -

@@ -2,6 +2,7 @@
 // rims, to those of the points across it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "pliant/deformers/arap/options.h"
@@ -29,13 +30,18 @@ class ArapModel final : public LocalModel {
   const Rotations& rotations() const { return rotations_; }
 
   const std::vector<Edge>& edges() const { return edges_; }
-  /// Weight of an edge in the cells of its ends.
-  double spoke_weight(std::size_t edge) const { return cells_[first_cell_[edge]].weight; }
+  /// Weight of each edge in the cells of its ends.
+  std::vector<double> spoke_weights() const;
 
  private:
-  struct Cell {
-    Index point;
-    double weight;
+  /// An edge and the four points in whose cells it lies: its ends and, with rims, those across it
+  /// (an end with weight 0 where there is none). Edges of more than two triangles go on in a second
+  /// record, where their ends weigh 0. One cache line.
+  struct Spoke {
+    std::array<Index, 4> cells;
+    std::array<double, 3> weights;  ///< of both ends, and of either point across
+    std::array<double, 3> rest;     ///< from the second end to the first
+    double weight_of(int cell) const { return weights[cell < 2 ? 0 : cell - 1]; }
   };
   /// A row of the cotangent Laplacian of an inner point, as a weighted vector of its cell.
   struct Row {
@@ -46,16 +52,21 @@ class ArapModel final : public LocalModel {
 
   void add_rows(const Triangles& triangles, const EdgeTable& table, const Points& cotangents,
                 const std::vector<double>& weights, double smoothness);
+  /// Calls f(spoke, edge) with the edge each spoke belongs to.
+  template <class F>
+  void for_spokes(F f) const;
   /// sum_k w_k |L_k x - Q_k L_k from|^2, its parts and half its gradient.
   std::array<double, 2> residuals(const Points& from, const Rotations& turns, const Points& x,
                                   Points& half_gradient) const;
+  /// The part of the edges; gradient is added to.
+  double edge_residuals(const Points& from, const Rotations& turns, const Points& x,
+                        Points& half_gradient) const;
 
   Points rest_;
   bool planar_;
   std::vector<Edge> edges_;
-  std::vector<double> rest_edges_;       ///< 3 an edge, from its second end to its first
-  std::vector<std::size_t> first_cell_;  ///< of each edge in cells_, and the end
-  std::vector<Cell> cells_;
+  std::vector<Spoke> spokes_;  ///< in the order of edges_
+  int cells_a_spoke_;          ///< 2 or, with rims, 4
   std::vector<Row> rows_;
 
   Rotations covariances_, rotations_;

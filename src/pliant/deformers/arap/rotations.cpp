@@ -13,8 +13,11 @@ using dense::Vec2;
 /// (s1 + s2)(s2 + s3)(s3 + s1) over (s1 + s2 + s3)^3, singular values signed: below this the closed
 /// form has fewer than ten digits left.
 constexpr double kLeastGap = 1e-2;
-/// Newton steps for the largest root; the start is exact for flat neighbourhoods.
+/// Newton steps for the largest root, at most; the start is exact for flat neighbourhoods.
 constexpr int kRootSteps = 6;
+/// A step this small, squared, leaves nothing but rounding: the steps' lengths are squared from one
+/// to the next, times at most 200 where the gap is not too small.
+constexpr double kLastStep = 1e-20;
 
 Vec2 square_root(Vec2 v) { return Vec2{std::sqrt(v[0]), std::sqrt(v[1])}; }
 
@@ -36,7 +39,11 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   Vec2 root = square_root(1.0 + 2.0 * square_root(minors));
   for (int i = 0; i < kRootSteps; ++i) {
     const Vec2 q = root * root - 1.0;
-    root -= (q * q - 8.0 * det * root - 4.0 * minors) / (4.0 * q * root - 8.0 * det + 1e-300);
+    const Vec2 step =
+        (q * q - 8.0 * det * root - 4.0 * minors) / (4.0 * q * root - 8.0 * det + 1e-300);
+    root -= step;
+    const Vec2 squared = step * step;
+    if (squared[0] < kLastStep && squared[1] < kLastStep) break;
   }
   const Vec2 kappa = 0.5 * (root * root - 1.0);
   const Vec2 zeta = kappa * root - det;
