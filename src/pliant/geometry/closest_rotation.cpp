@@ -1,5 +1,6 @@
 #include "pliant/geometry/closest_rotation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -39,25 +40,40 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-RigidMotion fit_rigid_motion(const Points& from, const Points& to) {
-  const Eigen::Vector3d from_center = from.rowwise().mean(), to_center = to.rowwise().mean();
-  const Points a = from.colwise() - from_center, b = to.colwise() - to_center;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (Index i = 0; i < a.cols(); ++i) covariance += b.col(i) * a.col(i).transpose();
+void RigidFit::add(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  if (count_++ == 0) {
+    first_from_ = from;
+    first_to_ = to;
+    return;
+  }
+  const Eigen::Vector3d a = from - first_from_, b = to - first_to_;
+  from_ += a;
+  to_ += b;
+  products_ += b * a.transpose();
+  from_squared_ += a.squaredNorm();
+  to_squared_ += b.squaredNorm();
+}
+
+RigidMotion RigidFit::motion() const {
+  RigidMotion motion;
+  if (count_ == 0) return motion;
+  const Eigen::Vector3d from_mean = from_ / count_, to_mean = to_ / count_;
+  const Eigen::Matrix3d covariance = products_ - to_ * from_mean.transpose();
+  const double from_spread = from_squared_ - from_.dot(from_mean);
+  const double to_spread = to_squared_ - to_.dot(to_mean);
   const Svd3 svd = svd3(covariance);
   const Eigen::Vector3d& s = svd.values;
 
-  RigidMotion motion;
   // Below this share of the spread a singular value is rounding: the points lie on a line, or in
   // one.
   constexpr double kRankTolerance = 1e-10;
-  const double spread = a.norm() * b.norm();
+  const double spread = std::sqrt(std::max(from_spread * to_spread, 0.0));
   if (s[1] > kRankTolerance * spread) {
     motion.rotation = closest_rotation(covariance);
   } else if (s[0] > kRankTolerance * spread && spread > 0.0) {
     motion.rotation = smallest_turn(svd.v.col(0), svd.u.col(0));
   }
-  motion.translation = to_center - motion.rotation * from_center;
+  motion.translation = first_to_ + to_mean - motion.rotation * (first_from_ + from_mean);
   return motion;
 }
 

@@ -13,9 +13,21 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& matrix);
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation);
 
-/// The rigid motion that takes `from` to `to` (3 x n each) best in the least-squares sense
-/// (Kabsch). Where the points leave the turn open (one point, or all on a line) it is the smallest
-/// one.
-RigidMotion fit_rigid_motion(const Points& from, const Points& to);
+/// The rigid motion that takes points to others best in the least-squares sense (Kabsch), from the
+/// pairs added so far. Where they leave the turn open (one point, or all on a line) it is the
+/// smallest one; without any, the identity.
+class RigidFit {
+ public:
+  void add(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  RigidMotion motion() const;
+
+ private:
+  // Sums over the pairs, relative to the first, so that they keep their digits.
+  Eigen::Vector3d first_from_, first_to_;
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), to_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero();  ///< to from'
+  double from_squared_ = 0.0, to_squared_ = 0.0;
+  Index count_ = 0;
+};
 
 }  // namespace pliant

@@ -19,7 +19,8 @@ void pack(const double* a, std::ptrdiff_t lda, int rows, int depth, double* pack
   }
 }
 
-/// c (4 x 4) -= x y' for two packed tiles of depth `depth`.
+/// c (4 x 4) -= x y' for two packed tiles of depth `depth`; c = -x y' where it is Fresh.
+template <bool Fresh>
 inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
                           int depth) {
   Vec2 sum[4][2] = {};
@@ -33,22 +34,25 @@ inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const 
   }
   for (int j = 0; j < 4; ++j) {
     double* column = c + j * ldc;
-    store2(column, load2(column) - sum[j][0]);
-    store2(column + 2, load2(column + 2) - sum[j][1]);
+    store2(column, (Fresh ? Vec2{} : load2(column)) - sum[j][0]);
+    store2(column + 2, (Fresh ? Vec2{} : load2(column + 2)) - sum[j][1]);
   }
 }
 
 /// As subtract_tile, for a tile that is cut off by the border of c.
+template <bool Fresh>
 void subtract_partial_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
                            int depth, int rows, int columns) {
-  double tile[16] = {};
-  subtract_tile(tile, 4, x, y, depth);
+  double tile[16];
+  subtract_tile<true>(tile, 4, x, y, depth);
   for (int j = 0; j < columns; ++j) {
-    for (int i = 0; i < rows; ++i) c[j * ldc + i] += tile[4 * j + i];
+    double* column = c + j * ldc;
+    for (int i = 0; i < rows; ++i) column[i] = (Fresh ? 0.0 : column[i]) + tile[4 * j + i];
   }
 }
 
-/// c (rows x columns, its lower trapezoid) -= a a(top)' for a packed a.
+/// c (rows x columns, its lower trapezoid) -= a a(top)' for a packed a; Fresh: as subtract_tile.
+template <bool Fresh>
 void subtract_packed(double* c, std::ptrdiff_t ldc, const double* packed, int rows, int columns,
                      int depth) {
   for (int j = 0; j < columns; j += 4) {
@@ -58,9 +62,9 @@ void subtract_packed(double* c, std::ptrdiff_t ldc, const double* packed, int ro
       const double* x = packed + static_cast<std::ptrdiff_t>(i) * depth;
       double* tile = c + j * ldc + i;
       if (width == 4 && i + 4 <= rows) {
-        subtract_tile(tile, ldc, x, y, depth);
+        subtract_tile<Fresh>(tile, ldc, x, y, depth);
       } else {
-        subtract_partial_tile(tile, ldc, x, y, depth, std::min(4, rows - i), width);
+        subtract_partial_tile<Fresh>(tile, ldc, x, y, depth, std::min(4, rows - i), width);
       }
     }
   }
@@ -75,9 +79,9 @@ bool factorize_diagonal(double* a, std::ptrdiff_t ld, int n) {
       for (int i = j; i < n; ++i) column[i] -= l * previous[i];
     }
     if (!(column[j] > 0.0)) return false;
-    const double root = std::sqrt(column[j]);
+    const double root = std::sqrt(column[j]), inverse = 1.0 / root;
     column[j] = root;
-    for (int i = j + 1; i < n; ++i) column[i] /= root;
+    for (int i = j + 1; i < n; ++i) column[i] *= inverse;
   }
   return true;
 }
@@ -143,19 +147,19 @@ bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, do
     solve_below(diagonal, diagonal + n, ld, below, n);
     if (k + n < columns) {
       pack(diagonal + n, ld, below, n, packed);
-      subtract_packed(panel + (k + n) * ld + k + n, ld, packed, below, columns - k - n, n);
+      subtract_packed<false>(panel + (k + n) * ld + k + n, ld, packed, below, columns - k - n, n);
     }
     invert_diagonal(diagonal, ld, n);
   }
   return true;
 }
 
-void subtract_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
-                    int depth, double* packed) {
+void minus_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
+                 int depth, double* packed) {
   for (int p = 0; p < depth; p += kPanelBlock) {
     const int some = std::min(kPanelBlock, depth - p);
     pack(a + p * lda, lda, n, some, packed);
-    subtract_packed(c, ldc, packed, n, n, some);
+    (p == 0 ? subtract_packed<true> : subtract_packed<false>)(c, ldc, packed, n, n, some);
   }
 }
 

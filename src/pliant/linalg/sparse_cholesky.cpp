@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <string>
 
 #include "pliant/linalg/dense_kernels.h"
@@ -82,13 +81,16 @@ void SparseCholesky::link_supernodes() {
       supernode_of_[supernodes_[s].first + j] = static_cast<Index>(s);
     }
   }
+  for (Supernode& node : supernodes_) node.children.clear();
   factor_size_ = 0;
   const std::size_t square = static_cast<std::size_t>(block_) * block_;
-  for (Supernode& node : supernodes_) {
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    Supernode& node = supernodes_[s];
     node.factor = factor_size_;
     factor_size_ += square * node.height() * node.width;
     if (node.rows.empty()) continue;
     node.parent = supernode_of_[node.rows.front()];
+    supernodes_[node.parent].children.push_back(static_cast<Index>(s));
     const Supernode& parent = supernodes_[node.parent];
     node.runs.clear();
     Index below = 0;
@@ -105,6 +107,8 @@ void SparseCholesky::link_supernodes() {
         node.runs.push_back({from, to, 1});
     }
   }
+  for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node)
+    node->side = node->parent < 0 ? 0 : 1 - supernodes_[node->parent].side;
 }
 
 void SparseCholesky::place_entries(const BlockMatrix& matrix) {
@@ -130,22 +134,18 @@ void SparseCholesky::place_entries(const BlockMatrix& matrix) {
   }
 }
 
-std::size_t SparseCholesky::stack_size() const {
-  // Replays the factorisation: a front's update matrix is built above those of its children, which
-  // it then replaces.
-  std::vector<std::size_t> sizes, children(supernodes_.size(), 0);
-  std::size_t used = 0, most = 0;
+std::array<std::size_t, 2> SparseCholesky::stack_sizes() const {
+  // Replays the factorisation, where a front's update matrix replaces those of its children, which
+  // lie on top of the other stack.
+  std::array<std::size_t, 2> used{}, most{};
+  std::vector<std::size_t> from_children(supernodes_.size(), 0);
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
-    const std::size_t n = supernodes_[s].rows.size() * block_;
-    most = std::max(most, used + n * n);
-    for (std::size_t c = 0; c < children[s]; ++c) {
-      used -= sizes.back();
-      sizes.pop_back();
-    }
-    if (supernodes_[s].parent < 0) continue;
-    ++children[supernodes_[s].parent];
-    sizes.push_back(n * n);
-    used += n * n;
+    const Supernode& node = supernodes_[s];
+    const std::size_t size = update_size(node);
+    used[node.side] += size;
+    most[node.side] = std::max(most[node.side], used[node.side]);
+    used[1 - node.side] -= from_children[s];
+    if (node.parent >= 0) from_children[node.parent] += size;
   }
   return most;
 }
@@ -176,12 +176,12 @@ Status SparseCholesky::analyze_like(const SparseCholesky& other, const BlockMatr
 
 Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   link_supernodes();
-  const std::size_t stack = stack_size();
-  if ((factor_size_ + stack) * sizeof(double) > max_bytes) {
-    return {ErrorCode::too_large,
-            "the system of " + std::to_string(rows()) + " unknowns needs a factor of " +
-                std::to_string((factor_size_ + stack) * sizeof(double) >> 20) +
-                " MiB; expected at most " + std::to_string(max_bytes >> 20)};
+  const std::array<std::size_t, 2> stacks = stack_sizes();
+  const std::size_t bytes = (factor_size_ + stacks[0] + stacks[1]) * sizeof(double);
+  if (bytes > max_bytes) {
+    return {ErrorCode::too_large, "the system of " + std::to_string(rows()) +
+                                      " unknowns needs a factor of " + std::to_string(bytes >> 20) +
+                                      " MiB; expected at most " + std::to_string(max_bytes >> 20)};
   }
   place_entries(matrix);
   panels_.clear();
@@ -194,9 +194,8 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   for (const Supernode& node : supernodes_) {
     tallest = std::max(tallest, static_cast<std::size_t>(node.height()) * block_);
   }
-  factor_.resize(factor_size_);
-  stack_.resize(stack);
-  waiting_.reserve(supernodes_.size());
+  factor_.reset(new double[factor_size_]);
+  for (int side : {0, 1}) stacks_[side].reset(new double[stacks[side]]);
   work_.resize(std::max(dense::packed_size(tallest), dense::Three::stride * tallest));
   gathered_.assign(static_cast<std::size_t>(rows()) * dense::Three::stride, 0.0);
   return {};
@@ -219,25 +218,23 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
   }
 }
 
-void SparseCholesky::extend_add(const Supernode& child, const Supernode& parent,
-                                const double* source, double* panel, double* update) const {
+void SparseCholesky::extend_add(const Supernode& child, const double* source, double* target,
+                                std::ptrdiff_t ld, Index first, Index last) const {
   const std::ptrdiff_t b = block_, n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
-  const std::ptrdiff_t columns = parent.width * b, height = parent.height() * b;
   for (std::size_t run = 0; run < child.runs.size(); ++run) {
     const Run& across = child.runs[run];
-    for (std::ptrdiff_t c = 0; c < across.count * b; ++c) {
-      const std::ptrdiff_t column = across.to * b + c;
-      double* target = column < columns
-                           ? panel + column * height
-                           : update + (column - columns) * (height - columns) - columns;
+    const Index begin = std::max(across.to, first), end = std::min(across.to + across.count, last);
+    for (std::ptrdiff_t column = begin * b; column < end * b; ++column) {
+      const std::ptrdiff_t c = column - across.to * b;
+      double* to = target + (column - first * b) * ld - first * b;
       const double* from = source + (across.from * b + c) * n;
       // The lower triangle, from the block on the diagonal on.
       const std::ptrdiff_t skipped = c / b * b;
       dense::add(from + across.from * b + skipped, across.count * b - skipped,
-                 target + across.to * b + skipped);
+                 to + across.to * b + skipped);
       for (std::size_t down = run + 1; down < child.runs.size(); ++down) {
         const Run& rows = child.runs[down];
-        dense::add(from + rows.from * b, rows.count * b, target + rows.to * b);
+        dense::add(from + rows.from * b, rows.count * b, to + rows.to * b);
       }
     }
   }
@@ -246,41 +243,36 @@ void SparseCholesky::extend_add(const Supernode& child, const Supernode& parent,
 Status SparseCholesky::factorize(const BlockMatrix& matrix) {
   assert(matrix.nodes == nodes_ && matrix.block == block_);
   const int b = block_;
-  // The update matrices waiting for their parents lie on stack_, children of the next front on top.
-  std::size_t top = 0;
-  auto& waiting = waiting_;
-  waiting.clear();
+  // The update matrices that wait for their parents lie on two stacks, those of the next front's
+  // children on top of one: its own goes to the other.
+  std::array<std::size_t, 2> top{};
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& node = supernodes_[s];
     const int columns = node.width * b, height = node.height() * b, below = height - columns;
-    double* panel = factor_.data() + node.factor;
-    double* update = stack_.data() + top;
+    double* panel = factor_.get() + node.factor;
+    double* update = stacks_[node.side].get() + top[node.side];
+    std::size_t& children_top = top[1 - node.side];
+    for (Index child : node.children) children_top -= update_size(supernodes_[child]);
+    // Adds what the children leave to a part of this front: its panel, or its update matrix.
+    auto add_children = [&](double* target, std::ptrdiff_t ld, Index first, Index last) {
+      const double* source = stacks_[1 - node.side].get() + children_top;
+      for (Index child : node.children) {
+        extend_add(supernodes_[child], source, target, ld, first, last);
+        source += update_size(supernodes_[child]);
+      }
+    };
+
     std::fill_n(panel, static_cast<std::ptrdiff_t>(height) * columns, 0.0);
-    std::fill_n(update, static_cast<std::ptrdiff_t>(below) * below, 0.0);
     assemble(matrix, s, panel);
-
-    std::size_t base = top;
-    while (!waiting.empty() && supernodes_[waiting.back()].parent == static_cast<Index>(s)) {
-      const Supernode& child = supernodes_[waiting.back()];
-      const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
-      base -= n * n;
-      extend_add(child, node, stack_.data() + base, panel, update);
-      waiting.pop_back();
-    }
-
+    add_children(panel, height, 0, node.width);
     if (!dense::factorize_panel(panel, height, height, columns, work_.data())) {
       return {ErrorCode::not_solvable,
               "the system matrix is not positive definite; expected enough constraints"};
     }
-    if (below > 0) {
-      dense::subtract_outer(update, below, panel + columns, height, below, columns, work_.data());
-      const std::size_t size = static_cast<std::size_t>(below) * below;
-      std::memmove(stack_.data() + base, update, size * sizeof(double));
-      top = base + size;
-      waiting.push_back(static_cast<Index>(s));
-    } else {
-      top = base;
-    }
+    if (below == 0) continue;
+    dense::minus_outer(update, below, panel + columns, height, below, columns, work_.data());
+    add_children(update, below, node.width, node.height());
+    top[node.side] += update_size(node);
   }
   return {};
 }
@@ -306,10 +298,9 @@ void SparseCholesky::solve_some(double* x) {
   }
   const Index* row = below_.data();
   for (const Panel& panel : panels_) {
-    dense::forward_panel<Lanes>(factor_.data() + panel.factor,
-                                static_cast<int>((panel.width + panel.rows) * b),
-                                static_cast<int>(panel.width * b), z + panel.first * b * stride,
-                                below);
+    dense::forward_panel<Lanes>(
+        factor_.get() + panel.factor, static_cast<int>((panel.width + panel.rows) * b),
+        static_cast<int>(panel.width * b), z + panel.first * b * stride, below);
     const double* from = below;
     for (Index i = 0; i < panel.rows; ++i, ++row) {
       double* to = z + *row * b * stride;
@@ -325,10 +316,9 @@ void SparseCholesky::solve_some(double* x) {
     double* to = below;
     for (Index i = 0; i < panel->rows; ++i)
       to = copy_block(z + row[i] * b * stride, b * stride, to);
-    dense::backward_panel<Lanes>(factor_.data() + panel->factor,
-                                 static_cast<int>((panel->width + panel->rows) * b),
-                                 static_cast<int>(panel->width * b), z + panel->first * b * stride,
-                                 below);
+    dense::backward_panel<Lanes>(
+        factor_.get() + panel->factor, static_cast<int>((panel->width + panel->rows) * b),
+        static_cast<int>(panel->width * b), z + panel->first * b * stride, below);
   }
   for (Index j = 0; j < nodes_; ++j) {
     const double* from = z + position_[j] * b * stride;

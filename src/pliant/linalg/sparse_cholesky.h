@@ -5,7 +5,9 @@
 // supernodes, so that all arithmetic happens in dense fronts.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "pliant/core/status.h"
@@ -51,12 +53,15 @@ class SparseCholesky {
     Index first = 0;
     Index width = 0;
     Index parent = -1;
-    std::vector<Index> rows;  ///< permuted node ids, ascending
-    std::vector<Run> runs;    ///< where the rows lie in the parent's front
-    std::size_t factor = 0;   ///< offset of its panel in factor_
+    std::vector<Index> children;  ///< ascending: those with rows below their columns
+    std::vector<Index> rows;      ///< permuted node ids, ascending
+    std::vector<Run> runs;        ///< where the rows lie in the parent's front
+    std::size_t factor = 0;       ///< offset of its panel in factor_
+    int side = 0;                 ///< which of stacks_ takes its update matrix: not its parent's
     Index height() const { return width + static_cast<Index>(rows.size()); }
   };
-  /// What solving reads of a supernode, close together; its rows below follow one another in below_.
+  /// What solving reads of a supernode, close together; its rows below follow one another in
+  /// below_.
   struct Panel {
     std::size_t factor;
     Index first, width, rows;
@@ -74,11 +79,17 @@ class SparseCholesky {
                        const std::vector<Index>& parent);
   void link_supernodes();
   void place_entries(const BlockMatrix& matrix);
-  std::size_t stack_size() const;
+  std::array<std::size_t, 2> stack_sizes() const;
   void assemble(const BlockMatrix& matrix, std::size_t supernode, double* panel) const;
-  /// Adds a child's update matrix to its parent's front: `panel` and, below it, `update`.
-  void extend_add(const Supernode& child, const Supernode& parent, const double* source,
-                  double* panel, double* update) const;
+  /// Doubles of the update matrix a supernode leaves to its parent.
+  std::size_t update_size(const Supernode& node) const {
+    const std::size_t n = node.rows.size() * static_cast<std::size_t>(block_);
+    return n * n;
+  }
+  /// Adds a child's update matrix to the columns [first, last) of its parent's front, from the row
+  /// of the first of them on, which lie at `target`.
+  void extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld,
+                  Index first, Index last) const;
   /// Lanes: see substitution.h. Block: block_ where the compiler may know it, else 0.
   template <class Lanes, int Block>
   void solve_some(double* x);
@@ -91,9 +102,9 @@ class SparseCholesky {
   std::vector<Panel> panels_;
   std::vector<Index> below_;
   std::vector<std::vector<Entry>> entries_;
-  std::vector<double> factor_;
-  std::vector<double> stack_;
-  std::vector<Index> waiting_;  ///< supernodes whose update matrix is on stack_
+  // Plain memory: filling it with zeros first would take as long as a tenth of a factorisation.
+  std::unique_ptr<double[]> factor_;
+  std::array<std::unique_ptr<double[]>, 2> stacks_;
   std::vector<double> work_;
   std::vector<double> gathered_;  ///< right-hand sides in elimination order, as Lanes has them
   std::size_t factor_size_ = 0;

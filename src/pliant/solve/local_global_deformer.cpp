@@ -142,14 +142,13 @@ bool LocalGlobalDeformer::Core::follow_rigidly(const LocalGlobalDeformer& self,
   for (Index p : self.fixed_points()) wanted.erase(component[p]);
   bool met = self.fixed_points().empty();
   for (const auto& [part, points] : wanted) {
-    Points from(3, points.size()), to(3, points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      from.col(static_cast<Index>(i)) = x.col(points[i].first);
-      to.col(static_cast<Index>(i)) = points[i].second;
+    RigidFit fit;
+    for (const auto& [p, target] : points) fit.add(x.col(p), target);
+    const RigidMotion motion = fit.motion();
+    for (const auto& [p, target] : points) {
+      met = met && (motion.rotation * x.col(p) + motion.translation - target).norm() <=
+                       kRigid * self.shape().diagonal();
     }
-    const RigidMotion motion = fit_rigid_motion(from, to);
-    from = (motion.rotation * from).colwise() + motion.translation;
-    met = met && (from - to).colwise().norm().maxCoeff() <= kRigid * self.shape().diagonal();
     for (Index p = 0; p < start.cols(); ++p) {
       if (component[p] == part) start.col(p) = motion.rotation * x.col(p) + motion.translation;
     }
@@ -173,11 +172,11 @@ std::pair<Points, bool> LocalGlobalDeformer::Core::turns(const LocalGlobalDeform
   Points turns = Points::Zero(3, x.cols());
   for (const Handle& handle : self.handles()) {
     // Where no turn is told beyond what the points show, the points know better: soft ones may lag.
+    RigidFit fit;
+    for (std::size_t i = 0; i < handle.points.size(); ++i)
+      fit.add(x.col(handle.points[i]), handle.targets.col(static_cast<Index>(i)));
     const Eigen::Vector3d turn =
-        beyond_half_turn
-            ? told[handle.id]
-            : rotation_vector_of(
-                  fit_rigid_motion(x(Eigen::all, handle.points), handle.targets).rotation);
+        beyond_half_turn ? told[handle.id] : rotation_vector_of(fit.motion().rotation);
     for (Index p : handle.points) turns.col(p) = turn;
   }
   return {turns, beyond_half_turn};

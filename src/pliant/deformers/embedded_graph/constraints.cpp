@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "pliant/linalg/dense_kernels.h"
 
@@ -67,10 +68,17 @@ void GraphConstraints::set_up(const Points& points, const Influences& influences
       influence.coefficients << w * (points.col(l) - nodes.col(node)), w;
       influences_.push_back(influence);
     }
+    // By node: a handful, sorted by insertion.
+    for (std::size_t i = start_.back() + 1; i < influences_.size(); ++i) {
+      for (std::size_t at = i; at > start_.back(); --at) {
+        if (influences_[at - 1].node < influences_[at].node) break;
+        std::swap(influences_[at - 1], influences_[at]);
+      }
+    }
     start_.push_back(influences_.size());
   }
   residuals_ = targets_ = Points::Zero(3, points.cols());
-  gradient_ = along_ = rhs_ = Vector::Zero(3 * rows());
+  gradient_ = along_ = by_node_ = sum_by_node_ = Vector::Zero(3 * rows());
   Points free_positions(3, free_nodes);
   for (Index node = 0; node < nodes.cols(); ++node) {
     if (free_of_node[node] >= 0) free_positions.col(free_of_node[node]) = nodes.col(node);
@@ -83,19 +91,34 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
   std::vector<std::size_t> first_edge(free_nodes_ + 1, edges.size());
   for (std::size_t e = edges.size(); e-- > 0;) first_edge[edges[e][0]] = e;
   for (Index j = free_nodes_; j-- > 0;) first_edge[j] = std::min(first_edge[j], first_edge[j + 1]);
+  auto edge_between = [&](Index j, Index k) {
+    std::size_t e = first_edge[j];
+    while (edges[e][1] != k) ++e;
+    return e;
+  };
   std::vector<Moments> of_node(free_nodes_, Moments{}), of_edge(edges.size(), Moments{});
+  std::vector<Index> nodes, previous_nodes;
+  std::vector<std::size_t> pairs;  // edges between the nodes of a point, which often has the last
+                                   // one's nodes
   for (Index l = 0; l < points.cols(); ++l) {
-    const Moments moments = moments_of(points.col(l));
-    for (std::size_t p = start_[l]; p < start_[l + 1]; ++p) {
-      const Index one = influences_[p].node;
-      const double w = influences_[p].coefficients[3];
-      add_moments(moments, w * w, of_node[one]);
-      for (std::size_t q = start_[l]; q < p; ++q) {
-        const Index two = influences_[q].node;
-        std::size_t e = first_edge[std::min(one, two)];
-        while (edges[e][1] != std::max(one, two)) ++e;
-        add_moments(moments, w * influences_[q].coefficients[3], of_edge[e]);
+    const Influence* const first = influences_.data() + start_[l];
+    const std::size_t count = start_[l + 1] - start_[l];
+    nodes.clear();
+    for (std::size_t q = 0; q < count; ++q) nodes.push_back(first[q].node);
+    if (nodes != previous_nodes) {
+      pairs.clear();
+      for (std::size_t q = 1; q < count; ++q) {
+        for (std::size_t p = 0; p < q; ++p) pairs.push_back(edge_between(nodes[p], nodes[q]));
       }
+      previous_nodes = nodes;
+    }
+    const Moments moments = moments_of(points.col(l));
+    auto pair = pairs.begin();
+    for (std::size_t q = 0; q < count; ++q) {
+      const double w = first[q].coefficients[3];
+      add_moments(moments, w * w, of_node[nodes[q]]);
+      for (std::size_t p = 0; p < q; ++p)
+        add_moments(moments, w * first[p].coefficients[3], of_edge[*pair++]);
     }
   }
   blocks_.clear();
@@ -109,22 +132,13 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
     add_block(edges[e][0], edges[e][1], static_cast<Index>(e), of_edge[e]);
 }
 
-void GraphConstraints::set_targets(const Points& displacements) {
-  targets_ = displacements;
-  transposed(targets_, rhs_);
-}
-
 void GraphConstraints::transposed(const Points& values, Vector& product) const {
   product.setZero();
   for (Index l = 0; l < values.cols(); ++l) {
     for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
-      const double* w = influences_[i].coefficients.data();
-      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-      double* n = product.data() + 4 * influences_[i].node;
-      for (int a = 0; a < 3; ++a, n += rows()) {
-        const dense::Vec2 value = dense::splat2(values(a, l));
-        dense::store2(n, dense::load2(n) + value * w01);
-        dense::store2(n + 2, dense::load2(n + 2) + value * w23);
+      for (int a = 0; a < 3; ++a) {
+        Eigen::Map<Eigen::Vector4d>(product.data() + a * rows() + 4 * influences_[i].node) +=
+            values(a, l) * influences_[i].coefficients;
       }
     }
   }
@@ -134,12 +148,9 @@ Eigen::Vector3d GraphConstraints::residual(const Vector& x, Index l) const {
   // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
   Eigen::Vector3d r = -targets_.col(l);
   for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
-    const double* w = influences_[i].coefficients.data();
-    const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-    const double* n = x.data() + 4 * influences_[i].node;
-    for (int a = 0; a < 3; ++a, n += rows()) {
-      const dense::Vec2 sum = w01 * dense::load2(n) + w23 * dense::load2(n + 2);
-      r[a] += sum[0] + sum[1];
+    for (int a = 0; a < 3; ++a) {
+      r[a] += influences_[i].coefficients.dot(
+          Eigen::Map<const Eigen::Vector4d>(x.data() + a * rows() + 4 * influences_[i].node));
     }
   }
   return r;
@@ -171,10 +182,47 @@ void GraphConstraints::add_to(BlockMatrix& matrix, double w) const {
 }
 
 double GraphConstraints::evaluate(const Vector& x) {
-  for (Index l = 0; l < residuals_.cols(); ++l) residuals_.col(l) = residual(x, l);
-  apply_blocks(x, gradient_);
-  gradient_ -= rhs_;
-  return residuals_.squaredNorm();
+  // One pass over the constraints, on unknowns and sums node by node: (row a of U_j, t_j[a]) for
+  // a = 0, 1, 2.
+  for (Index j = 0; j < free_nodes_; ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c) by_node_[12 * j + 4 * a + c] = x[a * rows() + 4 * j + c];
+    }
+  }
+  sum_by_node_.setZero();
+  dense::Vec2 squares = {};
+  for (Index l = 0; l < residuals_.cols(); ++l) {
+    dense::Vec2 sum[3] = {};
+    for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
+      const double* n = by_node_.data() + 12 * influences_[i].node;
+      const double* w = influences_[i].coefficients.data();
+      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
+      for (int a = 0; a < 3; ++a)
+        sum[a] += w01 * dense::load2(n + 4 * a) + w23 * dense::load2(n + 4 * a + 2);
+    }
+    double* r = residuals_.data() + 3 * l;
+    for (int a = 0; a < 3; ++a) {
+      r[a] = sum[a][0] + sum[a][1] - targets_(a, l);
+      sum[a] = dense::splat2(r[a]);
+      squares += sum[a] * sum[a];
+    }
+    for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
+      double* n = sum_by_node_.data() + 12 * influences_[i].node;
+      const double* w = influences_[i].coefficients.data();
+      const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
+      for (int a = 0; a < 3; ++a, n += 4) {
+        dense::store2(n, dense::load2(n) + sum[a] * w01);
+        dense::store2(n + 2, dense::load2(n + 2) + sum[a] * w23);
+      }
+    }
+  }
+  for (Index j = 0; j < free_nodes_; ++j) {
+    for (int a = 0; a < 3; ++a) {
+      for (int c = 0; c < 4; ++c)
+        gradient_[a * rows() + 4 * j + c] = sum_by_node_[12 * j + 4 * a + c];
+    }
+  }
+  return squares[0];
 }
 
 GraphConstraints::Course GraphConstraints::along(const Vector& d) {

@@ -20,7 +20,7 @@ class GraphConstraints {
               const std::vector<Index>& free_of_node, Index free_nodes,
               const std::vector<Edge>& edges);
   /// Displacements from rest that the points should have, 3 x c.
-  void set_targets(const Points& displacements);
+  void set_targets(const Points& displacements) { targets_ = displacements; }
 
   /// C' values for values at the points (3 x c).
   void transposed(const Points& values, Vector& product) const;
@@ -68,8 +68,8 @@ class GraphConstraints {
   std::vector<std::size_t> start_;  ///< of each point in influences_, and the end
   Points targets_, residuals_;
   std::vector<Block> blocks_;
-  Vector rhs_;  ///< C' targets
   Vector gradient_, along_;
+  Vector by_node_, sum_by_node_;  ///< for `evaluate`
 };
 
 }  // namespace pliant::embedded

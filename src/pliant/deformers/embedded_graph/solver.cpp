@@ -25,6 +25,8 @@ constexpr double kExactStiffness = 100.0;
 constexpr double kLeastDeterminant = 1e-3;
 /// Turns of the constraints below this (radians) need no prediction.
 constexpr double kSmallTurn = 0.2;
+/// So many points of a handle, evenly picked, tell its turn well enough for a prediction.
+constexpr std::size_t kEnoughForTurn = 250;
 
 /// det(R + alpha D) = c0 + c1 alpha + c2 alpha^2 + c3 alpha^3.
 std::array<double, 4> determinant_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
@@ -146,6 +148,17 @@ bool GraphSolver::keep_if_lower(double previous_total) {
   return false;
 }
 
+RigidMotion GraphSolver::motion_of(const std::vector<Index>& constraints, std::size_t most) const {
+  RigidFit fit;
+  const std::size_t stride = std::max<std::size_t>(1, constraints.size() / most);
+  for (std::size_t i = 0; i < constraints.size(); i += stride) {
+    const Index l = constraints[i];
+    const Eigen::Vector3d wanted = constrained_.col(l) + displacement_.col(l);
+    fit.add(wanted + shift_.col(l) + energy_.constraints().evaluated().col(l), wanted);
+  }
+  return fit.motion();
+}
+
 void GraphSolver::predict_rigid() {
   // A component that nothing holds follows the best rigid motion of its handles at no cost.
   std::vector<std::vector<Index>> floating(
@@ -156,15 +169,13 @@ void GraphSolver::predict_rigid() {
   }
   if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); }))
     return;
-  const Points now = constrained_now(), wanted = constrained_ + displacement_;
   previous_ = x_;
   const double before = energy_.total();
   bool moved = false;
   for (Index c = 0; c < components_.count; ++c) {
     const std::vector<Index>& members = floating[c];
     if (members.empty()) continue;
-    const RigidMotion motion =
-        fit_rigid_motion(now(Eigen::all, members), wanted(Eigen::all, members));
+    const RigidMotion motion = motion_of(members, members.size());
     moved = true;
     for (Index j = 0; j < energy_.free_nodes(); ++j) {
       if (components_.of[j] != c) continue;
@@ -194,29 +205,32 @@ void GraphSolver::set_displacement_gradient(Index j, const Eigen::Matrix3d& u) {
 void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
   // The turns of the handles, spread over the graph as smoothly as its Laplacian can, give every
   // node a rotation to start from; translations follow by one linear solve.
-  const Points now = constrained_now();
-  const Points wanted = constrained_ + displacement_;
-  Points rotations = Points::Zero(3, now.cols());
+  std::vector<Eigen::Vector3d> rotations;
   double largest = 0.0;
   for (const Turn& turn : turns) {
     // Where no turn is told beyond what the points show, the points know better: the shape may lag.
-    const RigidMotion fit =
-        fit_rigid_motion(now(Eigen::all, turn.constraints), wanted(Eigen::all, turn.constraints));
-    const Eigen::Vector3d rotation = as_told ? turn.rotation : rotation_vector_of(fit.rotation);
-    largest = std::max(largest, rotation.norm());
-    for (Index l : turn.constraints) rotations.col(l) = rotation;
+    rotations.push_back(
+        as_told ? turn.rotation
+                : rotation_vector_of(motion_of(turn.constraints, kEnoughForTurn).rotation));
+    largest = std::max(largest, rotations.back().norm());
   }
   if (largest < kSmallTurn) return;
+  Points at_constraints = Points::Zero(3, constrained_.cols());
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    for (Index l : turns[t].constraints) at_constraints.col(l) = rotations[t];
+  }
 
   // What spreads displacements over the graph spreads turns as well.
   previous_ = x_;
   const double before = energy_.total();
-  energy_.constraints().transposed(rotations, direction_);
+  energy_.constraints().transposed(at_constraints, direction_);
   direction_ *= options_.weights.constraint;
   metric_factor_.solve(direction_.data(), 3);
   for (Index j = 0; j < energy_.free_nodes(); ++j)
     turn_node(j, rotation_of(energy_.translation(direction_, j)));
-  energy_.evaluate(x_);
+  direction_ = x_ - previous_;
+  energy_.along(previous_, direction_);
+  energy_.advance(1.0, x_);
   update_gradient();
   follow_metric();
   if (as_told) {

@@ -80,10 +80,9 @@ class GraphSolver {
   /// Step along direction_, given the energy's course and the slope with the barrier's part.
   double choose_step(const Quartic& course, double slope);
   bool tighten();
-  /// Scaled positions of the constrained points, where the energy was last evaluated.
-  Points constrained_now() const {
-    return constrained_ + displacement_ + shift_ + energy_.constraints().evaluated();
-  }
+  /// What takes constrained points from where the energy was last evaluated to their targets; of
+  /// more than twice `most` only some are asked.
+  RigidMotion motion_of(const std::vector<Index>& constraints, std::size_t most) const;
 
   SolverOptions options_;
   GraphEnergy energy_;
