@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "pliant/linalg/dense_kernels.h"
 
@@ -68,13 +67,6 @@ void GraphConstraints::set_up(const Points& points, const Influences& influences
       influence.coefficients << w * (points.col(l) - nodes.col(node)), w;
       influences_.push_back(influence);
     }
-    // By node: a handful, sorted by insertion.
-    for (std::size_t i = start_.back() + 1; i < influences_.size(); ++i) {
-      for (std::size_t at = i; at > start_.back(); --at) {
-        if (influences_[at - 1].node < influences_[at].node) break;
-        std::swap(influences_[at - 1], influences_[at]);
-      }
-    }
     start_.push_back(influences_.size());
   }
   residuals_ = targets_ = Points::Zero(3, points.cols());
@@ -92,8 +84,8 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
   for (std::size_t e = edges.size(); e-- > 0;) first_edge[edges[e][0]] = e;
   for (Index j = free_nodes_; j-- > 0;) first_edge[j] = std::min(first_edge[j], first_edge[j + 1]);
   auto edge_between = [&](Index j, Index k) {
-    std::size_t e = first_edge[j];
-    while (edges[e][1] != k) ++e;
+    std::size_t e = first_edge[std::min(j, k)];
+    while (edges[e][1] != std::max(j, k)) ++e;
     return e;
   };
   std::vector<Moments> of_node(free_nodes_, Moments{}), of_edge(edges.size(), Moments{});
@@ -132,15 +124,15 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
     add_block(edges[e][0], edges[e][1], static_cast<Index>(e), of_edge[e]);
 }
 
-void GraphConstraints::transposed(const Points& values, Vector& product) const {
-  product.setZero();
-  for (Index l = 0; l < values.cols(); ++l) {
-    for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
-      for (int a = 0; a < 3; ++a) {
-        Eigen::Map<Eigen::Vector4d>(product.data() + a * rows() + 4 * influences_[i].node) +=
-            values(a, l) * influences_[i].coefficients;
-      }
-    }
+void GraphConstraints::add_common(const std::vector<Index>& points, const Eigen::Vector3d& value,
+                                  Vector& product) const {
+  std::vector<double> sums(static_cast<std::size_t>(rows()), 0.0);  // of coefficients
+  for (Index l : points) {
+    for (std::size_t i = start_[l]; i < start_[l + 1]; ++i)
+      dense::add(influences_[i].coefficients.data(), 4, sums.data() + 4 * influences_[i].node);
+  }
+  for (int a = 0; a < 3; ++a) {
+    for (Index r = 0; r < rows(); ++r) product[a * rows() + r] += value[a] * sums[r];
   }
 }
 

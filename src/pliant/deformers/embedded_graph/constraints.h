@@ -22,8 +22,9 @@ class GraphConstraints {
   /// Displacements from rest that the points should have, 3 x c.
   void set_targets(const Points& displacements) { targets_ = displacements; }
 
-  /// C' values for values at the points (3 x c).
-  void transposed(const Points& values, Vector& product) const;
+  /// product += C' v, where v is `value` at the given points and 0 at the others.
+  void add_common(const std::vector<Index>& points, const Eigen::Vector3d& value,
+                  Vector& product) const;
   /// C x - targets, 3 x c.
   Points residuals(const Vector& x) const;
   /// Adds w C'C to a matrix over all free nodes and the edges of set_up.

@@ -215,15 +215,13 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
     largest = std::max(largest, rotations.back().norm());
   }
   if (largest < kSmallTurn) return;
-  Points at_constraints = Points::Zero(3, constrained_.cols());
-  for (std::size_t t = 0; t < turns.size(); ++t) {
-    for (Index l : turns[t].constraints) at_constraints.col(l) = rotations[t];
-  }
 
   // What spreads displacements over the graph spreads turns as well.
   previous_ = x_;
   const double before = energy_.total();
-  energy_.constraints().transposed(at_constraints, direction_);
+  direction_.setZero();
+  for (std::size_t t = 0; t < turns.size(); ++t)
+    energy_.constraints().add_common(turns[t].constraints, rotations[t], direction_);
   direction_ *= options_.weights.constraint;
   metric_factor_.solve(direction_.data(), 3);
   for (Index j = 0; j < energy_.free_nodes(); ++j)
