@@ -22,14 +22,16 @@ struct Plain {
   int iterations = 0;
 };
 
-Plain plain_loop(const SurfaceScene& scene, ArapEnergy energy, double enough) {
-  arap::ArapModel model(*scene.shape, {.energy = energy});
-  Points x = scene.shape->points();
+/// From rest with the deformer's handles where they should be, on its own numbering.
+Plain plain_loop(const Arap& deformer, ArapEnergy energy, double enough) {
+  const Shape& shape = deformer.shape();
+  arap::ArapModel model(shape, {.energy = energy});
+  Points x = shape.points();
   std::vector<bool> held(x.cols(), false);
-  for (Index p : scene.fixed) held[p] = true;
-  for (Index p : scene.moved) {
-    held[p] = true;
-    x.col(p) = scene.motion.apply(x.col(p));
+  for (Index p : deformer.fixed_points()) held[p] = true;
+  for (const Handle& handle : deformer.handles()) {
+    for (Index p : handle.points) held[p] = true;
+    x(Eigen::all, handle.points) = handle.targets;
   }
   LocalGlobal loop;
   if (!loop.set_up(model.matrix(), held).ok()) std::abort();
@@ -38,7 +40,7 @@ Plain plain_loop(const SurfaceScene& scene, ArapEnergy energy, double enough) {
   do {
     loop.forget();
     ++plain.iterations;
-    if (!loop.step(model, x, 1e-12, scene.shape->diagonal(), 0.0).accepted) break;
+    if (!loop.step(model, x, 1e-12, shape.diagonal(), 0.0).accepted) break;
   } while (loop.energy() > enough);
   plain.to_enough = now() - start;
   plain.step = plain.to_enough / plain.iterations;
@@ -70,7 +72,7 @@ void bench_energy(const Reporter& reporter, ArapEnergy energy, const std::string
     ++iterations;
   } while (reached > enough && iterations < 1000);
 
-  const Plain plain = plain_loop(scene, energy, enough);
+  const Plain plain = plain_loop(*deformer, energy, enough);
   reporter.report(name + " plain loop to 1e-4", plain.to_enough, 0.0,
                   std::to_string(plain.iterations) + " iterations");
   reporter.report(name + " cold to 1e-4", elapsed, plain.to_enough,

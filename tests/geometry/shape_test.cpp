@@ -1,5 +1,7 @@
 #include "pliant/geometry/shape.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -158,6 +160,33 @@ TEST_CASE("normals of a sphere are its points; where there is no triangle they a
   CHECK(normals.col(last).isZero(0.0));
   CHECK((normals - shape->points()).colwise().norm().maxCoeff() < 0.02);
   CHECK((normals.leftCols(last).colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-14);
+}
+
+TEST_CASE("in local order it is the same shape, with edges that reach less far in memory") {
+  // The same triangles, by their first vertices.
+  const auto triangles_of = [](const Shape& of) {
+    std::vector<std::array<Index, 3>> triangles;
+    for (const auto& corners : of.triangles().colwise()) {
+      triangles.push_back({of.vertex_of_point()[corners[0]], of.vertex_of_point()[corners[1]],
+                           of.vertex_of_point()[corners[2]]});
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  };
+  const auto reach = [](const Shape& of) {
+    const Triangles& t = of.triangles();
+    return (t.row(0) - t.row(1)).cwiseAbs().cast<double>().mean();
+  };
+  const test::Mesh scattered = test::renumbered(test::torus(40, 20), 7);
+  for (const test::Mesh& mesh : {scattered, test::soup(scattered)}) {
+    const auto shape = test::shape_of(mesh);
+    const auto local = shape->in_local_order();
+    CHECK(local->scatter(local->points()) == shape->scatter(shape->points()));
+    for (Index p = 0; p < local->points().cols(); ++p)
+      CHECK(local->point_of_vertex()[local->vertex_of_point()[p]] == p);
+    CHECK(triangles_of(*local) == triangles_of(*shape));
+    if (shape->report().welded_vertices == 0) CHECK(reach(*local) < 0.2 * reach(*shape));
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "pliant/geometry/shape.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "pliant/geometry/adjacency.h"
+#include "pliant/geometry/local_order.h"
 #include "pliant/geometry/normals.h"
 
 namespace pliant {
@@ -215,6 +218,27 @@ void Shape::fill_report(Index input_triangles) {
 }
 
 Points Shape::normals() const { return point_normals(points_, triangles_); }
+
+std::shared_ptr<const Shape> Shape::in_local_order() const {
+  const std::vector<Index> order = local_order(points_);
+  std::vector<Index> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
+  std::shared_ptr<Shape> shape(new Shape(*this));
+  shape->points_ = points_(Eigen::all, order);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    shape->vertex_of_point_[i] = vertex_of_point_[order[i]];
+  for (Index& point : shape->point_of_vertex_) point = rank[point];
+  std::vector<std::array<Index, 3>> triangles;
+  for (const auto& corners : triangles_.colwise())
+    triangles.push_back({rank[corners[0]], rank[corners[1]], rank[corners[2]]});
+  std::stable_sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) {
+    return std::min({a[0], a[1], a[2]}) < std::min({b[0], b[1], b[2]});
+  });
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) shape->triangles_(c, static_cast<Index>(t)) = triangles[t][c];
+  }
+  return shape;
+}
 
 Points Shape::scatter(const Points& of_points) const {
   assert(of_points.cols() == points_.cols());

@@ -50,7 +50,7 @@ class Shape {
 
   int dimension() const { return dimension_; }
   Index input_size() const { return static_cast<Index>(point_of_vertex_.size()); }
-  /// 3 x p welded points, in order of first appearance in the input.
+  /// 3 x p welded points, in order of first appearance in the input unless `in_local_order`.
   const Points& points() const { return points_; }
   /// 3 x m' triangles over the points; those with fewer than three distinct points are left out.
   const Triangles& triangles() const { return triangles_; }
@@ -63,6 +63,10 @@ class Shape {
   double diagonal() const { return diagonal_; }
   /// Unit normals of the points (area-weighted; zero where there is no triangle), 3 x p.
   Points normals() const;
+  /// The same shape with its points along a curve that keeps neighbours together (local_order.h),
+  /// its triangles after them: what walks over points and edges again and again is up to three
+  /// times as fast. Nothing that leaves through `scatter` tells the difference.
+  std::shared_ptr<const Shape> in_local_order() const;
   /// 3 x p values of the points -> 3 x n values of the input's vertices.
   Points scatter(const Points& of_points) const;
 

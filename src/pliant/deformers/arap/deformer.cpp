@@ -23,6 +23,7 @@ Result<std::unique_ptr<Arap>> Arap::create(std::shared_ptr<const Shape> shape,
   if (shape->triangles().cols() == 0) {
     return Status(ErrorCode::invalid_shape, "the shape has no triangles; arap expects a surface");
   }
+  shape = shape->in_local_order();
   auto impl = std::make_unique<Impl>();
   impl->options = options;
   impl->model = std::make_unique<arap::ArapModel>(*shape, options);

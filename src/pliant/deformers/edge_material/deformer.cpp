@@ -40,6 +40,7 @@ Result<std::unique_ptr<EdgeMaterial>> EdgeMaterial::create(std::shared_ptr<const
     return Status(ErrorCode::invalid_shape,
                   "the shape has no triangles; edge-material expects a surface");
   }
+  shape = shape->in_local_order();
   auto field = edge_material::direction_field(*shape, options.field);
   if (!field.ok()) return field.status();
   auto impl = std::make_unique<Impl>(*shape);
