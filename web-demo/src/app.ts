@@ -1,4 +1,5 @@
 // Joins the parts: what happens in the session is shown, what the visitor does reaches the session.
+import type { Present } from "./edit/present.ts";
 import { Session } from "./edit/session.ts";
 import { loadFile } from "./files/load_file.ts";
 import { catalog, entryOf } from "./shapes/catalog.ts";
@@ -72,7 +73,7 @@ export class App {
     this.toolbar = new Toolbar(makeTools(this.stage, sketch), () => this.toolChanged());
     this.limb = new LimbPanel(session, sketch, () => this.sayHint());
     this.input = new Input(this.stage, () => this.toolbar.current);
-    this.readout = new Readout(session);
+    this.readout = new Readout(session.present);
     this.panel = new Panel(session, {
       openEntry: (id) => void this.openEntry(id),
       openFile: (file) => void this.openFile(file),
@@ -98,13 +99,13 @@ export class App {
   }
 
   private makeStage(): Stage {
-    const { viewport, view, session } = this;
+    const { viewport, view, session, session: { present } } = this;
     return {
-      session, viewport, view,
+      session, present, viewport, view,
       pick: (x, y) => this.pick(x, y),
       radius: () => this.toolbar.size * this.box.diagonal,
       preview: (still) => {
-        view.paint(session.doc, still);
+        view.paint(present.doc, still);
         viewport.invalidate();
       },
       ink: (points) => this.strokes.draw(points),
@@ -112,12 +113,16 @@ export class App {
     };
   }
 
+  private get present(): Present {
+    return this.session.present;
+  }
+
   get diagonal(): number {
     return this.box.diagonal;
   }
 
   pick(x: number, y: number): Hit | undefined {
-    return pick(this.viewport, this.view, this.session, x, y);
+    return pick(this.viewport, this.view, this.present, x, y);
   }
 
   openEntry(id: string): Promise<void> {
@@ -135,13 +140,13 @@ export class App {
     try {
       if (await this.session.open(await load())) {
         this.chrome.say("");
-        if (this.session.doc.opened.start?.method) this.toolbar.chooseById("pose"); // it shows a method, not strokes
+        if (this.present.doc.opened.start?.method) this.toolbar.chooseById("pose"); // it shows a method, not strokes
       }
     } catch (error) {
       this.problem(error as Error);
     }
     this.opening = false;
-    this.chrome.busy(this.session.busy);
+    this.chrome.busy(this.present.busy);
   }
 
   /** Says what went wrong; the controls show again how things stand. */
@@ -151,7 +156,7 @@ export class App {
   }
 
   private async watchGraph(on: boolean): Promise<void> {
-    await this.session.watch(on);
+    await this.present.watch(on);
     this.view.setVeiled(on);
     this.viewport.invalidate();
   }
@@ -168,8 +173,8 @@ export class App {
 
   /** Document, history or selection. */
   private changed(): void {
-    const { session } = this;
-    if (session.doc.sketch) this.toolbar.chooseById("sketch"); // by undo, perhaps
+    const { session, present } = this;
+    if (present.doc.sketch) this.toolbar.chooseById("sketch"); // by undo, perhaps
     this.toolbar.refresh();
     this.takeShape();
     this.paint();
@@ -177,14 +182,14 @@ export class App {
     this.panel.refresh();
     this.limb.refresh(this.sketching);
     this.chrome.refresh(session);
-    this.chrome.busy(session.busy || this.opening);
+    this.chrome.busy(present.busy || this.opening);
     this.sayHint();
     this.viewport.invalidate();
   }
 
   /** The shape on the screen; the camera stays unless another one was opened. */
   private takeShape(): void {
-    const { shown, doc, solid } = this.session;
+    const { shown, doc, solid } = this.present;
     if (this.shown === shown) return;
     if (this.shown?.triangles === shown.triangles && this.shown.colors === shown.colors) { // only its rest has moved
       this.shown = shown;
@@ -203,7 +208,7 @@ export class App {
 
   private paint(): void {
     if (!this.shown) return;
-    const { doc, sketched } = this.session;
+    const { doc, sketched } = this.present;
     if (this.sketching) this.view.paintLimb(sketched, doc.sketch !== undefined && isPosed(doc.sketch));
     else this.view.paint(doc);
   }
@@ -219,8 +224,8 @@ export class App {
   private draw(): void {
     if (this.stale && this.shown) {
       this.stale = false;
-      this.view.update(this.session.positions, this.session.normals);
-      this.graph.show(graphIn(this.session.state), this.box.diagonal);
+      this.view.update(this.present.positions, this.present.normals);
+      this.graph.show(graphIn(this.present.state), this.box.diagonal);
       this.readout.refresh();
     }
     this.overlay.place();
@@ -229,8 +234,7 @@ export class App {
 
   private toolChanged(): void {
     if (!this.input) return; // being made
-    const { session } = this;
-    if (!this.sketching) void session.leaveLimb();
+    if (!this.sketching) void this.session.leaveLimb();
     this.viewport.setDrawing(this.sketching);
     this.overlay.hide(this.sketching);
     this.limb.refresh(this.sketching);
@@ -244,8 +248,8 @@ export class App {
 
   /** One line on what to do next; none once it has been understood. */
   private sayHint(): void {
-    const { session, toolbar } = this;
-    const { sketch } = session.doc;
+    const { session, present, toolbar } = this;
+    const { sketch } = present.doc;
     if (sketch && this.sketching) this.chrome?.hint(strokeHints[this.limb.mode](isPosed(sketch)));
     else if (session.canUndo && ["pose", "sketch"].includes(toolbar.current.id)) this.chrome?.hint("");
     else this.chrome?.hint(toolbar.current.hint);

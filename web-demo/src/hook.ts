@@ -30,7 +30,7 @@ export interface PliantDemo {
 }
 
 export function installHook(app: App): void {
-  const { session, viewport } = app;
+  const { session, session: { present }, viewport } = app;
   const onPage = (p: Vector3) => {
     const box = viewport.canvas.getBoundingClientRect();
     const { x, y } = viewport.toScreen(p);
@@ -38,27 +38,27 @@ export function installHook(app: App): void {
   };
   const hook: PliantDemo = {
     idle: () => session.idle(),
-    positions: () => [...session.positions],
-    rest: () => [...session.doc.opened.positions],
-    triangles: () => [...session.doc.opened.triangles],
-    fixed: () => [...session.doc.fixed],
-    handles: () => session.doc.handles.filter((h) => !h.held).map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
+    positions: () => [...present.positions],
+    rest: () => [...present.doc.opened.positions],
+    triangles: () => [...present.doc.opened.triangles],
+    fixed: () => [...present.doc.fixed],
+    handles: () => present.doc.handles.filter((h) => !h.held).map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
     shape: () => ({
-      id: session.doc.shape.id, name: session.doc.shape.name, vertices: session.shown.positions.length / 3,
-      triangles: session.shown.triangles.length / 3, diagonal: app.diagonal,
+      id: present.doc.shape.id, name: present.doc.shape.name, vertices: present.shown.positions.length / 3,
+      triangles: present.shown.triangles.length / 3, diagonal: app.diagonal,
     }),
-    vertexAt: (v) => onPage(new Vector3().fromArray(session.positions, 3 * v)),
+    vertexAt: (v) => onPage(new Vector3().fromArray(present.positions, 3 * v)),
     project: (point) => onPage(new Vector3(...point)),
     pick: (x, y) => app.pick(x, y)?.vertex ?? -1,
-    script: () => session.script(),
+    script: () => present.script(),
     limb: () => {
-      const { sketched } = session;
+      const { sketched } = present;
       if (!sketched) return undefined;
       const points = Array.from({ length: sketched.target.length / 3 }, (_, i) => new Vector3().fromArray(sketched.target, 3 * i));
       return { labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.s)], curve: points.map(onPage) };
     },
-    motion: () => session.motion,
-    selected: () => session.selected,
+    motion: () => present.motion,
+    selected: () => present.selected,
   };
   Object.assign(window, { pliantDemo: hook });
 }

@@ -78,6 +78,12 @@ const atRest = (sketch: SketchDoc, control: Control) => sameKnots(sketch.knots[c
 export const isPosed = (sketch: SketchDoc): boolean =>
   sketch.target !== undefined || sketch.twist !== 0 || !atRest(sketch, "turning") || !atRest(sketch, "scale");
 
+/** What a control or a stroke changes: some parts, or what to make of those that are there when its turn comes. */
+export type PoseChange = Partial<SketchDoc> | ((before: SketchDoc) => Partial<SketchDoc>);
+
+export const posed = (sketch: SketchDoc, change: PoseChange): SketchDoc =>
+  ({ ...sketch, unfinished: false, ...(typeof change === "function" ? change(sketch) : change) });
+
 /** A smooth curve through knots at equal steps (Catmull and Rom), at t from 0 to 1. */
 export function splineAt(knots: Knots, t: number): number {
   const last = knots.length - 1;

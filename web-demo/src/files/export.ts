@@ -1,5 +1,5 @@
-// Downloads: what the session holds, as files.
-import type { Session } from "../edit/session.ts";
+// Downloads: the present, as files.
+import type { Present } from "../edit/present.ts";
 import { writeGlb } from "./write_glb.ts";
 import { writeObj } from "./write_obj.ts";
 
@@ -8,12 +8,12 @@ export type ExportKind = "obj" | "glb" | "script";
 /** The user's file without its ending, or the shape's own name. */
 const baseName = ({ id, name }: { id: string; name: string }) => (id === "file" ? name.replace(/\.[^.]*$/, "") : id);
 
-export async function download(session: Session, kind: ExportKind): Promise<void> {
-  const { doc, shown, positions, normals } = session;
+export async function download(present: Present, kind: ExportKind): Promise<void> {
+  const { doc, shown, positions, normals } = present;
   const base = baseName(doc.shape);
   if (kind === "obj") save(`${base}-bent.obj`, "model/obj", writeObj(shown, positions));
   if (kind === "glb") save(`${base}-bent.glb`, "model/gltf-binary", await writeGlb(shown, positions, normals));
-  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(session.script(), undefined, 1));
+  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(present.script(), undefined, 1));
 }
 
 function save(name: string, type: string, content: string | Uint8Array<ArrayBuffer>): void {

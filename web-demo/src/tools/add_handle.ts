@@ -37,12 +37,12 @@ export class AddHandle implements Tool {
   private place({ x, y }: Pointer): number | undefined {
     const hit = this.stage.pick(x, y);
     if (!hit) return undefined;
-    const { session } = this.stage;
-    const there = session.doc.handles.find((h) => !h.held && h.vertices.includes(hit.vertex));
+    const { session, present } = this.stage;
+    const there = present.doc.handles.find((h) => !h.held && h.vertices.includes(hit.vertex));
     if (there) {
       session.select(there.id);
       return there.id;
     }
-    return session.addHandle(patchAround(session.topology, session.positions, hit.vertex, hit.point.toArray(), this.stage.radius()));
+    return session.addHandle(patchAround(present.topology, present.positions, hit.vertex, hit.point.toArray(), this.stage.radius()));
   }
 }

@@ -13,7 +13,7 @@ export class Grain implements Tool {
   constructor(private readonly stage: Stage) {}
 
   available(): boolean {
-    const { method, options } = this.stage.session.doc;
+    const { method, options } = this.stage.present.doc;
     return isPainting(method, options);
   }
 
@@ -32,12 +32,12 @@ export class Grain implements Tool {
 
   up(): void {
     const { vertices } = this;
-    const { session } = this.stage;
+    const { session, present: { doc } } = this.stage;
     this.cancel();
     if (!vertices || vertices.length < 2) return;
-    const rest = session.doc.shape.positions;
+    const rest = doc.shape.positions;
     const stroke = vertices.map((v) => [rest[3 * v]!, rest[3 * v + 1]!, rest[3 * v + 2]!] as const);
-    void session.setOption("strokes", [...(session.doc.options["strokes"] as Strokes), stroke]);
+    void session.setOption("strokes", [...(doc.options["strokes"] as Strokes), stroke]);
   }
 
   cancel(): void {

@@ -21,7 +21,7 @@ export class HandleDrag {
   }
 
   move(to: Pointer): void {
-    const handle = this.stage.session.handle(this.id);
+    const handle = this.stage.present.handle(this.id);
     if (!handle || (to.x === this.last.x && to.y === this.last.y)) return;
     if (!this.begun) this.stage.session.beginDrag();
     this.begun = true;

@@ -57,7 +57,7 @@ export class Paint implements Tool {
   private dab({ x, y }: Pointer): void {
     const hit = this.stage.pick(x, y);
     if (!hit || !this.stroke) return;
-    const { topology, positions, doc } = this.stage.session;
+    const { topology, positions, doc } = this.stage.present;
     const held = new Set(doc.handles.flatMap((h) => (h.held ? [] : [...h.vertices])));
     for (const v of patchAround(topology, positions, hit.vertex, hit.point.toArray(), this.stage.radius())) {
       if (!this.adds) this.stroke.delete(v);

@@ -1,5 +1,5 @@
 // Sketch: a stroke along a limb chooses it, the next ones say where it goes, how it turns, how thick it is.
-import { scaledFrom, type Pixel, type SketchDoc } from "../edit/sketch_doc.ts";
+import { scaledFrom, type Pixel, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
 import { distance, fitted, lengthOf } from "./stroke.ts";
 import type { Pointer, Stage, Tool } from "./tool.ts";
 
@@ -34,7 +34,7 @@ export class SketchTool implements Tool {
   constructor(private readonly stage: Stage) {}
 
   available(): boolean {
-    return this.stage.session.sketchable;
+    return this.stage.present.sketchable;
   }
 
   down(at: Pointer): boolean {
@@ -53,19 +53,20 @@ export class SketchTool implements Tool {
     const lasting = this.gesture.kind === "reference" || this.gesture.kind === "bend";
     this.stage.ink(lasting ? this.ink : this.gesture.kind === "cut" ? [this.ink[0]!, at] : undefined);
     const change = this.change(true);
-    if (change && this.isReady && this.gesture.kind !== "cut") this.stage.session.previewPose(change);
+    if (change && this.isReady && this.gesture.kind !== "cut") this.stage.present.preview(change);
   }
 
   up(): void {
     const { session, viewport } = this.stage;
     const gesture = this.gesture;
     const change = this.change(false);
+    const label = `stroke ${this.strokes}`;
     this.end();
     if (gesture?.kind === "reference") {
       if (lengthOf(this.ink) >= shortest) void session.chooseLimb(viewport.sketchCamera(), this.pixels(), this.mirror);
       return;
     }
-    if (change) void this.ready.then((went) => went && session.pose(change, `stroke ${this.strokes}`));
+    if (change) void this.ready.then((went) => went && session.pose(change, label));
     else session.showAgain();
   }
 
@@ -84,22 +85,21 @@ export class SketchTool implements Tool {
   // -- What a press begins ------------------------------------------------------------------------
 
   private gestureFor(at: Pointer): Gesture | undefined {
-    const { session } = this.stage;
-    const frame = session.sketched;
+    const { doc: { sketch }, sketched: frame } = this.stage.present;
     const hit = this.near(at);
-    if (!session.doc.sketch || !frame) return hit ? { kind: "reference" } : undefined;
+    if (!sketch || !frame) return hit ? { kind: "reference" } : undefined;
     if (this.mode === "cut") return { kind: "cut" };
     const curve = this.curve(frame.target);
     const onLimb = hit !== undefined && (frame.labels[hit.vertex] ?? 1) > 0;
     // The region may begin further along than the stroke did; either place will do.
-    const [x, y] = session.doc.sketch.reference[0]!;
+    const [x, y] = sketch.reference[0]!;
     const here = this.pixel(at);
     const gap = Math.min(distance(at, curve[0]!), Math.hypot(here[0] - x, here[1] - y));
     const byTheJoint = gap < Math.max(reach, 0.25 * lengthOf(curve));
     if (!onLimb && !(this.mode === "bend" && byTheJoint)) return hit ? { kind: "reference" } : undefined;
     if (this.mode === "bend") return { kind: "bend" };
     const along = unit(curve[0]!, curve.at(-1)!);
-    if (this.mode === "twist") return { kind: "twist", from: session.doc.sketch.twist, axis: [-along[1], along[0]] };
+    if (this.mode === "twist") return { kind: "twist", from: sketch.twist, axis: [-along[1], along[0]] };
     return { kind: "scale", s: frame.s[hit!.vertex] ?? 1, out: outwards(at, curve) };
   }
 
@@ -120,38 +120,40 @@ export class SketchTool implements Tool {
    * chosen again from here, by the curve it lies on now.
    */
   private followCamera(): void {
-    const { session, viewport } = this.stage;
-    const { sketch } = session.doc;
-    if (!sketch || this.gesture!.kind === "reference" || !session.sketched) return;
+    const { session, present: { doc: { sketch }, sketched }, viewport } = this.stage;
+    if (!sketch || this.gesture!.kind === "reference" || !sketched) return;
     const camera = viewport.sketchCamera();
     if (JSON.stringify(camera) === JSON.stringify(sketch.camera)) return;
     this.isReady = false;
     if (this.gesture!.kind === "twist") this.gesture = { ...this.gesture!, from: 0 };
-    this.ready = session.lookAgain(camera, viewport.curveInPicture(session.sketched.target), `stroke ${this.strokes}`)
-      .finally(() => (this.isReady = true));
+    this.ready = session.lookAgain(camera, viewport.curveInPicture(sketched.target), `stroke ${this.strokes}`).then((went) => {
+      this.isReady = true;
+      return went;
+    });
   }
 
   // -- What a stroke says -------------------------------------------------------------------------
 
-  private change(drawing: boolean): Partial<SketchDoc> | undefined {
-    const { sketch } = this.stage.session.doc;
+  /** What it finds in the sketch it takes from there when its turn comes: the limb may be seen from elsewhere by then. */
+  private change(drawing: boolean): PoseChange | undefined {
     const { gesture } = this;
-    if (!gesture || gesture.kind === "reference" || !sketch || lengthOf(this.ink) < shortest) return undefined;
+    if (!gesture || gesture.kind === "reference" || !this.stage.present.doc.sketch || lengthOf(this.ink) < shortest) return undefined;
     const [from, to] = [this.ink[0]!, this.ink.at(-1)!];
     const along = ([x, y]: Pixel) => (to.x - from.x) * x + (to.y - from.y) * y;
     switch (gesture.kind) {
       case "bend": {
-        if (this.keepsLength) return { target: fitted(this.pixels(), sketch.reference), morph: 1 };
-        return { target: this.pixels(), unfinished: drawing, morph: 1 };
+        const target = this.pixels();
+        if (!this.keepsLength) return { target, unfinished: drawing, morph: 1 };
+        return ({ reference }) => ({ target: fitted(target, reference), morph: 1 });
       }
       case "twist": return { twist: Math.round(10 * (gesture.from + degreesPerPixel * along(gesture.axis))) / 10, morph: 1 };
       case "scale": {
         const factor = Math.min(3, Math.max(0.3, 2 ** (along(gesture.out) / pixelsPerDoubling)));
-        return { knots: { ...sketch.knots, scale: scaledFrom(gesture.s, factor) }, morph: 1 };
+        return ({ knots }) => ({ knots: { ...knots, scale: scaledFrom(gesture.s, factor) }, morph: 1 });
       }
       case "cut": {
         const line = [this.pixel(from), this.pixel(to)] as const;
-        return { partitions: [...sketch.partitions, line], region: undefined, labels: undefined };
+        return ({ partitions }) => ({ partitions: [...partitions, line], region: undefined, labels: undefined });
       }
     }
   }

@@ -1,4 +1,5 @@
 // What a way of using the pointer is: the toolbar, the input and the keys know nothing else.
+import type { Present } from "../edit/present.ts";
 import type { Session } from "../edit/session.ts";
 import type { IconName } from "../ui/icons.ts";
 import type { Hit } from "../view/picking.ts";
@@ -8,6 +9,8 @@ import type { Viewport } from "../view/viewport.ts";
 /** What tools work on. */
 export interface Stage {
   readonly session: Session;
+  /** The session's: what there is to work on. */
+  readonly present: Present;
   readonly viewport: Viewport;
   readonly view: ShapeView;
   /** The first hit under a place on the page. */

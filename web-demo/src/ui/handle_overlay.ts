@@ -26,7 +26,7 @@ export class HandleOverlay {
       makeSvg("circle", { class: "track", cx: "58", cy: "58", r: "46" }), catcher, this.grip);
     this.root.append(this.ring, this.bubble);
     this.root.addEventListener("contextmenu", (event) => event.preventDefault()); // a long press
-    this.follow(catcher, () => this.stage.session.selected, () => "turn");
+    this.follow(catcher, () => this.stage.present.selected, () => "turn");
   }
 
   /** No handles while strokes are drawn. */
@@ -38,12 +38,12 @@ export class HandleOverlay {
 
   /** Parts that are only held in place have no button. */
   private get shown(): readonly HandleDoc[] {
-    return this.hidden || this.stage.session.doc.sketch ? [] : this.stage.session.doc.handles.filter((h) => !h.held);
+    return this.hidden || this.stage.present.doc.sketch ? [] : this.stage.present.doc.handles.filter((h) => !h.held);
   }
 
   /** Matches the buttons with the document. */
   refresh(): void {
-    const { doc, selected } = this.stage.session;
+    const { doc, selected } = this.stage.present;
     if (hasMoved(doc) || doc.done.length > 0) this.greeting = false;
     for (const [id, button] of this.buttons) {
       if (this.shown.some((h) => h.id === id)) continue;
@@ -73,8 +73,8 @@ export class HandleOverlay {
   }
 
   private placeRing(): void {
-    const { session, viewport } = this.stage;
-    const handle = session.selected === undefined || this.hidden ? undefined : session.handle(session.selected);
+    const { present, viewport } = this.stage;
+    const handle = present.selected === undefined || this.hidden ? undefined : present.handle(present.selected);
     const shown = handle !== undefined && handle.vertices.length > 1;
     this.ring.toggleAttribute("hidden", !shown);
     if (!handle) return;
@@ -128,7 +128,7 @@ export class HandleOverlay {
   }
 
   private key(event: KeyboardEvent, id: number): void {
-    const handle = this.stage.session.handle(id);
+    const handle = this.stage.present.handle(id);
     if (!handle || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Delete" || event.key === "Backspace") this.remove(id);
     else if (event.key === "Escape") this.stage.viewport.canvas.focus();

@@ -1,6 +1,6 @@
 // What can be set on the limb under strokes: what a stroke does, morph, smoothing, the spline controls.
 import type { Session } from "../edit/session.ts";
-import { controls, finishers, restKnots, type Control, type SketchDoc } from "../edit/sketch_doc.ts";
+import { controls, finishers, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
 import { methodOf } from "../methods.ts";
 import { boundingBox } from "../shapes/shape.ts";
 import { strokeModes, type SketchTool, type StrokeMode } from "../tools/sketch.ts";
@@ -25,6 +25,8 @@ export class LimbPanel {
   private readonly splines = new Map<Control, SplineBox>();
   private readonly morph = byId<HTMLInputElement>("morph");
   private readonly finish = byId<HTMLSelectElement>("finish");
+  /** Poses that were asked for here and are not carried out yet. */
+  private underWay = 0;
 
   constructor(private readonly session: Session, private readonly tool: SketchTool, private readonly changed: () => void) {
     this.modes = strokeModes.map((mode) => this.modeButton(mode));
@@ -32,15 +34,15 @@ export class LimbPanel {
     byId("limb-done").addEventListener("click", () => void session.leaveLimb());
     this.morph.addEventListener("input", () => {
       this.showMorph(Number(this.morph.value));
-      session.previewPose({ morph: Number(this.morph.value) / 100 });
+      session.present.preview({ morph: Number(this.morph.value) / 100 });
     });
-    this.morph.addEventListener("change", () => void session.pose({ morph: Number(this.morph.value) / 100 }, "morph"));
-    this.check("smooth", (smooth) => void session.pose({ smooth }));
-    this.check("refine", (refine) => void session.pose({ refine }));
+    this.morph.addEventListener("change", () => this.pose({ morph: Number(this.morph.value) / 100 }, "morph"));
+    this.check("smooth", (smooth) => this.pose({ smooth }));
+    this.check("refine", (refine) => this.pose({ refine }));
     this.check("keep-length", (on) => (tool.keepsLength = on));
     this.check("mirror", (on) => this.setMirror(on));
     this.finish.append(make("option", { value: "" }, "Nothing"), ...Object.entries(finishers).map(([value, label]) => make("option", { value, title: methodOf(value).help }, label)));
-    this.finish.addEventListener("change", () => void session.pose({ finish: this.finish.value }));
+    this.finish.addEventListener("change", () => this.pose({ finish: this.finish.value }));
     for (const control of controls) this.addSpline(control);
   }
 
@@ -59,7 +61,7 @@ export class LimbPanel {
 
   /** The key of a mode, or the one that lets go of the limb; whether it was one. */
   key(key: string): boolean {
-    if (!this.session.doc.sketch) return false;
+    if (!this.session.present.doc.sketch) return false;
     const mode = strokeModes.find((name) => name[0] === key);
     if (mode) this.setMode(mode);
     else if (key === "escape") void this.session.leaveLimb();
@@ -69,12 +71,25 @@ export class LimbPanel {
 
   /** Matches the controls with the document; `active`: the sketch tool is in use. */
   refresh(active: boolean): void {
-    const { sketch } = this.session.doc;
+    const { sketch } = this.session.present.doc;
     byId("limb").hidden = byId("limb-bar").hidden = !(sketch && active);
-    if (!sketch) {
-      if (this.tool.mode !== "bend") this.setMode("bend");
-      return;
-    }
+    if (sketch) this.show(sketch);
+    else if (this.tool.mode !== "bend") this.setMode("bend");
+  }
+
+  /** Carries out what a control says. */
+  private pose(change: PoseChange, label = ""): void {
+    this.underWay++;
+    void this.session.pose(change, label).then(() => {
+      this.underWay--;
+      const { sketch } = this.session.present.doc;
+      if (sketch) this.show(sketch);
+    });
+  }
+
+  /** Not while the document is behind the controls: the next press of a key goes on from what they say. */
+  private show(sketch: SketchDoc): void {
+    if (this.underWay > 0) return;
     this.showMorph(Math.round(100 * sketch.morph));
     byId<HTMLInputElement>("smooth").checked = sketch.smooth;
     byId<HTMLInputElement>("refine").checked = sketch.refine;
@@ -111,16 +126,16 @@ export class LimbPanel {
   }
 
   private setMirror(on: boolean): void {
-    const { opened } = this.session.doc;
+    const { opened } = this.session.present.doc;
     this.tool.mirror = on ? { normal: [1, 0, 0], offset: opened.mirrorAt ?? boundingBox(opened.positions).center[0] } : undefined;
-    void this.session.pose({ mirror: this.tool.mirror });
+    this.pose({ mirror: this.tool.mirror });
   }
 
   private addSpline(control: Control): void {
-    const knots = (value: SketchDoc["knots"][Control]) => ({ ...this.session.doc.sketch!.knots, [control]: value });
+    const change = (value: Knots): PoseChange => ({ knots }) => ({ knots: { ...knots, [control]: value } });
     const box = new SplineBox({ ...ranges[control], rest: restKnots[control] },
-      (value) => this.session.doc.sketch && this.session.previewPose({ knots: knots(value) }),
-      (value) => this.session.doc.sketch && void this.session.pose({ knots: knots(value) }, `knots ${control}`));
+      (value) => this.session.present.preview(change(value)),
+      (value) => this.session.present.doc.sketch && this.pose(change(value), `knots ${control}`));
     this.splines.set(control, box);
     byId("curves").append(box.element);
   }

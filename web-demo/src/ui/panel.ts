@@ -38,12 +38,12 @@ export class Panel {
     showPace();
     pace.addEventListener("input", () => {
       showPace();
-      session.setPace(Number(pace.value));
+      session.present.setPace(Number(pace.value));
     });
     this.check("graph", actions.watchGraph);
     this.check("wire", actions.wireframe);
     for (const kind of ["obj", "glb", "script"] as ExportKind[]) {
-      byId(`export-${kind}`).addEventListener("click", () => download(session, kind).catch(actions.problem));
+      byId(`export-${kind}`).addEventListener("click", () => download(session.present, kind).catch(actions.problem));
     }
     const toggle = byId("panel-toggle");
     const narrow = matchMedia("(max-width: 720px)");
@@ -67,7 +67,7 @@ export class Panel {
 
   /** Matches the controls with the document; `force`: also where they were set but the document did not follow. */
   refresh(force = false): void {
-    const { doc } = this.session;
+    const { doc } = this.session.present;
     const shown = [doc.shape, doc.method, doc.options];
     if (!force && shown.every((part, i) => part === this.shown[i])) return;
     this.shown = shown;

@@ -1,5 +1,5 @@
 // Figures of the present: what the solver did and what it did to the shape.
-import type { Session } from "../edit/session.ts";
+import type { Present } from "../edit/present.ts";
 import { byId, make } from "./dom.ts";
 
 /** Triangles that can be measured with every frame; larger shapes only at rest. */
@@ -16,7 +16,7 @@ function figure(x: number | undefined): string {
 export class Readout {
   private readonly values = new Map<string, HTMLElement>();
 
-  constructor(private readonly session: Session) {
+  constructor(private readonly present: Present) {
     const list = byId("readout");
     for (const [id, label] of [
       ["state", "State"], ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"], ["volume", "Volume"],
@@ -32,14 +32,14 @@ export class Readout {
   }
 
   refresh(): void {
-    const { step, report, motion } = this.session;
+    const { step, report, motion } = this.present;
     this.set("state", { settled: "settled", moving: "on its way", swinging: "to and fro" }[motion]);
     this.values.get("state")!.firstElementChild?.setAttribute("data-motion", motion);
     this.set("energy", figure(step?.energy));
     this.set("iterations", step ? String(step.iteration) : "–");
     this.set("ms", step ? `${step.milliseconds.toFixed(1)} ms` : "–");
     if (!step || step.converged || report.triangles < quick) {
-      const { stretch, volume } = this.session.measures();
+      const { stretch, volume } = this.present.measures();
       this.set("volume", percent(volume));
       this.set("stretch", percent(stretch));
     }

@@ -33,9 +33,9 @@ export class StrokeOverlay {
 
   /** Puts everything where the camera sees it. */
   place(): void {
-    const { session, viewport } = this.stage;
-    const { sketch } = session.doc;
-    const frame = this.active() && sketch ? session.sketched : undefined;
+    const { present, viewport } = this.stage;
+    const { sketch } = present.doc;
+    const frame = this.active() && sketch ? present.sketched : undefined;
     const curve = frame ? viewport.curveOnScreen(frame.target) : [];
     this.curve.setAttribute("d", line(curve));
     this.joint.toggleAttribute("hidden", !frame);
@@ -48,8 +48,8 @@ export class StrokeOverlay {
 
   /** For the first limb only: where to draw, then where to. */
   private placeHints(): void {
-    const { session, viewport } = this.stage;
-    const { sketch, opened, done } = session.doc;
+    const { present, viewport } = this.stage;
+    const { sketch, opened, done } = present.doc;
     if ((sketch && isPosed(sketch)) || done.length > 0) this.greeting = false;
     const strokes = opened.start?.strokes;
     const on = this.greeting && this.active() && !this.drawing && strokes !== undefined;
@@ -57,7 +57,7 @@ export class StrokeOverlay {
     this.ghost.setAttribute("d", "");
     if (!on) return;
     const [from, to] = strokes.map((stroke) => viewport.curveOnScreen(stroke.flat()));
-    const curve = sketch && session.sketched ? viewport.curveOnScreen(session.sketched.target) : undefined;
+    const curve = sketch && present.sketched ? viewport.curveOnScreen(present.sketched.target) : undefined;
     const asHinted = !curve || Math.hypot(curve.at(-1)!.x - from!.at(-1)!.x, curve.at(-1)!.y - from!.at(-1)!.y) < 70;
     if (asHinted) this.ghost.setAttribute("d", line(curve ? to! : from!));
     this.coach.firstElementChild!.textContent = curve ? "Now draw where it should go" : "Draw along here";

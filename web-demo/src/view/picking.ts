@@ -1,6 +1,6 @@
 // What lies under the pointer.
 import { Mesh, Raycaster, Vector2, Vector3, type Intersection } from "three";
-import type { Session } from "../edit/session.ts";
+import type { Present } from "../edit/present.ts";
 import type { ShapeView } from "./shape_view.ts";
 import type { Viewport } from "./viewport.ts";
 
@@ -15,7 +15,7 @@ export interface Hit {
 const raycaster = new Raycaster();
 
 /** The first hit of the deformed shape under a place on the page, or undefined. */
-export function pick(viewport: Viewport, view: ShapeView, session: Session, clientX: number, clientY: number): Hit | undefined {
+export function pick(viewport: Viewport, view: ShapeView, present: Present, clientX: number, clientY: number): Hit | undefined {
   if (!view.object) return undefined;
   const { x, y } = viewport.toClip(clientX, clientY);
   viewport.camera.updateMatrixWorld(); // it may have turned since it was last drawn
@@ -28,7 +28,7 @@ export function pick(viewport: Viewport, view: ShapeView, session: Session, clie
   if (!(view.object instanceof Mesh)) return { point: first.point.clone(), normal: toViewer, vertex: first.index! };
   const normal = first.face!.normal.clone();
   if (normal.dot(toViewer) < 0) normal.negate();
-  return { point: first.point.clone(), normal, vertex: nearestCorner(first, session.positions) };
+  return { point: first.point.clone(), normal, vertex: nearestCorner(first, present.positions) };
 }
 
 function nearestCorner({ face, point }: Intersection, positions: Float32Array): number {
