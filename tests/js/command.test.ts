@@ -5,6 +5,7 @@ import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Folder, objPositions } from "./support/command.js";
+import { half } from "./support/edit_script.js";
 import { carried, type GraphState, weights } from "./support/oracle.js";
 import { consumer, installed, pliant } from "./support/package.js";
 import { barObj, cloud } from "./support/shapes.js";
@@ -13,7 +14,6 @@ const folder = new Folder();
 afterAll(() => folder.remove());
 
 const bar = barObj(24);
-const half = (normal: number[], offset: number) => ({ halfSpace: { normal, offset } });
 const step = {
   method: "embedded-graph", options: { nodeCount: 40 }, fixed: [half([-1, 0, 0], -0.5)],
   handles: [{ name: "tip", select: half([1, 0, 0], 7.5), move: { translate: [0, 0, 2], rotate: { axis: [0, 1, 0], degrees: -40 } } }],

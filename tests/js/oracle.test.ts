@@ -1,6 +1,7 @@
 // A saved state recomputed from the paper's equations by code of its own.
 
 import { describe, expect, it } from "vitest";
+import { half } from "./support/edit_script.js";
 import { carried, determinant, edges, evaluate, type GraphState, savedWeights, weights } from "./support/oracle.js";
 import { pliant } from "./support/package.js";
 import { cloud, type Mesh, sheet, torus, where } from "./support/shapes.js";
@@ -13,7 +14,6 @@ interface Case {
   handles: object[];
 }
 
-const half = (normal: number[], offset: number) => ({ halfSpace: { normal, offset } });
 
 const cases: Case[] = [
   {

@@ -1,12 +1,12 @@
 // Edit scripts: what they do, what they report, and every way in which one can be wrong.
 
 import { describe, expect, it } from "vitest";
+import { half, script } from "./support/edit_script.js";
 import { errorOf, pliant } from "./support/package.js";
 import { picture, sheet, where } from "./support/shapes.js";
 
 const mesh = sheet(11);
 const shape = pliant.shape(mesh);
-const half = (normal: number[], offset: number) => ({ halfSpace: { normal, offset } });
 const left = half([-1, 0, 0], -0.15);
 const right = half([1, 0, 0], 0.9);
 const rightIds = where(mesh.positions, (x) => x >= 0.9);
@@ -14,7 +14,6 @@ const options = { nodeCount: 20 };
 const hand = { name: "hand", select: right, move: { translate: [0, 0, 0.2] } };
 const step = { method: "embedded-graph", options, fixed: [left], handles: [hand] };
 
-const script = (steps: unknown, more: object = {}) => ({ format: "pliant-edit", version: 1, steps, ...more });
 const run = (value: unknown, of = shape, more = {}) => pliant.edit(of, value as never, more);
 const difference = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
 

@@ -1,6 +1,7 @@
 // Sketch steps of edit scripts: what the calls do, what they report, and every way in which one can be wrong.
 
 import { describe, expect, it } from "vitest";
+import { script } from "./support/edit_script.js";
 import { arc, camera, curved, limb, longArc, pixel, straight, twoLimbs } from "./support/limb.js";
 import { entries, errorOf, pliant } from "./support/package.js";
 import { sheet } from "./support/shapes.js";
@@ -13,7 +14,6 @@ const coarseShape = pliant.shape(coarse);
 const base = { method: "sketch", camera, reference: straight };
 const bend = { ...base, bend: { target: arc } };
 const stretch = { ...base, bend: { target: longArc }, refine: true };
-const script = (steps: unknown, more: object = {}) => ({ format: "pliant-edit", version: 1, steps, ...more });
 const run = (steps: unknown, of = shape, more = {}) => pliant.edit(of, script(steps, more) as never);
 
 type Sketch = ReturnType<typeof pliant.sketch>;

@@ -126,3 +126,37 @@ TEST_CASE("separate parts and isolated nodes are one system") {
   const Eigen::VectorXd expected = (Eigen::VectorXd(5) << 1, 1, 2, 1, 1).finished();
   CHECK((x - expected).norm() < 1e-14);
 }
+
+TEST_CASE("solved roughly: six digits where pivots are alike, all of them where they are not") {
+  for (double spread : {1.0, 1e12}) {
+    for (double scale : {1e-150, 1.0, 1e150}) {
+      BlockMatrix matrix = random_matrix(1, 300, 6, 11);
+      matrix.diagonal[17] *= spread;
+      SparseCholesky cholesky;
+      REQUIRE(cholesky.analyze(matrix).ok());
+      REQUIRE(cholesky.factorize(matrix).ok());
+      cholesky.allow_rough();
+      Eigen::VectorXd exact = scale * test::Random(4).vector(3 * 300), rough = exact;
+      cholesky.solve(exact.data(), 3);
+      cholesky.solve_roughly(rough.data());
+      // Scaled before the norm is taken, whose squares would overflow.
+      const double error = ((rough - exact) / scale).norm() / (exact / scale).norm();
+      CHECK(error < 1e-6);
+      CHECK((error == 0.0) == (spread > 1.0));
+    }
+  }
+  // Zero stays zero, and a factorisation after the permission is exact again.
+  const BlockMatrix matrix = random_matrix(1, 40, 6, 2);
+  SparseCholesky cholesky;
+  REQUIRE(cholesky.analyze(matrix).ok());
+  REQUIRE(cholesky.factorize(matrix).ok());
+  cholesky.allow_rough();
+  Eigen::VectorXd zero = Eigen::VectorXd::Zero(120);
+  cholesky.solve_roughly(zero.data());
+  CHECK(zero.isZero(0.0));
+  REQUIRE(cholesky.factorize(matrix).ok());
+  Eigen::VectorXd a = test::Random(9).vector(120), b = a;
+  cholesky.solve(a.data(), 3);
+  cholesky.solve_roughly(b.data());
+  CHECK(a == b);
+}

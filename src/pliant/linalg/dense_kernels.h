@@ -18,6 +18,16 @@ inline Vec2 load2(const double* p) {
 inline void store2(double* p, Vec2 v) { std::memcpy(p, &v, sizeof v); }
 inline Vec2 splat2(double x) { return Vec2{x, x}; }
 
+typedef float Vec4 __attribute__((vector_size(16)));
+
+inline Vec4 load4(const float* p) {
+  Vec4 v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store4(float* p, Vec4 v) { std::memcpy(p, &v, sizeof v); }
+inline Vec4 splat4(float x) { return Vec4{x, x, x, x}; }
+
 /// to += from, n numbers.
 inline void add(const double* from, std::ptrdiff_t n, double* to) {
   std::ptrdiff_t i = 0;

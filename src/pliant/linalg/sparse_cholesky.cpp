@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string>
 
 #include "pliant/linalg/dense_kernels.h"
@@ -194,10 +195,12 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   for (const Supernode& node : supernodes_) {
     tallest = std::max(tallest, static_cast<std::size_t>(node.height()) * block_);
   }
-  factor_.reset(new double[factor_size_]);
+  exact_.factor.reset(new double[factor_size_]);
+  rough_.factor.reset();
   for (int side : {0, 1}) stacks_[side].reset(new double[stacks[side]]);
-  work_.resize(std::max(dense::packed_size(tallest), dense::Three::stride * tallest));
-  gathered_.assign(static_cast<std::size_t>(rows()) * dense::Three::stride, 0.0);
+  packed_.resize(dense::packed_size(tallest));
+  exact_.below.resize(dense::Three::stride * tallest);
+  exact_.gathered.assign(static_cast<std::size_t>(rows()) * dense::Three::stride, 0.0);
   return {};
 }
 
@@ -243,13 +246,14 @@ void SparseCholesky::extend_add(const Supernode& child, const double* source, do
 Status SparseCholesky::factorize(const BlockMatrix& matrix) {
   assert(matrix.nodes == nodes_ && matrix.block == block_);
   const int b = block_;
+  rough_.factor.reset();  // belongs to the last values
   // The update matrices that wait for their parents lie on two stacks, those of the next front's
   // children on top of one: its own goes to the other.
   std::array<std::size_t, 2> top{};
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& node = supernodes_[s];
     const int columns = node.width * b, height = node.height() * b, below = height - columns;
-    double* panel = factor_.get() + node.factor;
+    double* panel = exact_.factor.get() + node.factor;
     double* update = stacks_[node.side].get() + top[node.side];
     std::size_t& children_top = top[1 - node.side];
     for (Index child : node.children) children_top -= update_size(supernodes_[child]);
@@ -265,12 +269,12 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
     std::fill_n(panel, static_cast<std::ptrdiff_t>(height) * columns, 0.0);
     assemble(matrix, s, panel);
     add_children(panel, height, 0, node.width);
-    if (!dense::factorize_panel(panel, height, height, columns, work_.data())) {
+    if (!dense::factorize_panel(panel, height, height, columns, packed_.data())) {
       return {ErrorCode::not_solvable,
               "the system matrix is not positive definite; expected enough constraints"};
     }
     if (below == 0) continue;
-    dense::minus_outer(update, below, panel + columns, height, below, columns, work_.data());
+    dense::minus_outer(update, below, panel + columns, height, below, columns, packed_.data());
     add_children(update, below, node.width, node.height());
     top[node.side] += update_size(node);
   }
@@ -278,32 +282,58 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
 }
 
 /// std::copy_n for a few numbers: a call of memmove would take longer than they do.
-inline double* copy_block(const double* from, std::size_t n, double* to) {
+template <class Scalar>
+inline Scalar* copy_block(const Scalar* from, std::size_t n, Scalar* to) {
   for (std::size_t i = 0; i < n; ++i) to[i] = from[i];
   return to + n;
 }
 
+void SparseCholesky::allow_rough() {
+  // Diagonals hold inverse pivots. Their spread bounds the condition of the matrix from below, and
+  // for the matrices of surfaces it follows it closely.
+  constexpr double kMostSpread = 300.0;
+  double least = 1e12, most = 1e-12;
+  for (const Panel& panel : panels_) {
+    const std::size_t height = static_cast<std::size_t>(panel.width + panel.rows) * block_;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(panel.width) * block_; ++j) {
+      const double pivot = exact_.factor[panel.factor + j * height + j];
+      least = std::min(least, pivot);
+      most = std::max(most, pivot);
+    }
+  }
+  rough_.factor.reset();
+  if (!(most <= kMostSpread * least)) return;
+  rough_.factor.reset(new float[factor_size_]);
+  std::copy_n(exact_.factor.get(), factor_size_, rough_.factor.get());
+  rough_.gathered.assign(exact_.gathered.size(), 0.0f);
+  rough_.below.resize(exact_.below.size());
+}
+
 template <class Lanes, int Block>
-void SparseCholesky::solve_some(double* x) {
+void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& workspace,
+                                double scale) {
+  using Scalar = typename Lanes::Scalar;
   constexpr std::size_t stride = Lanes::stride;
   const std::size_t n = static_cast<std::size_t>(rows()), b = Block > 0 ? Block : block_;
-  double* z = gathered_.data();
-  double* below = work_.data();
+  const Scalar* factor = workspace.factor.get();
+  Scalar* z = workspace.gathered.data();
+  Scalar* below = workspace.below.data();
   for (Index j = 0; j < nodes_; ++j) {
     const double* from = x + j * b;
-    double* to = z + position_[j] * b * stride;
+    Scalar* to = z + position_[j] * b * stride;
     for (std::size_t r = 0; r < b; ++r) {
-      for (int c = 0; c < Lanes::columns; ++c) to[r * stride + c] = from[c * n + r];
+      for (int c = 0; c < Lanes::columns; ++c)
+        to[r * stride + c] = static_cast<Scalar>(scale * from[c * n + r]);
     }
   }
   const Index* row = below_.data();
   for (const Panel& panel : panels_) {
     dense::forward_panel<Lanes>(
-        factor_.get() + panel.factor, static_cast<int>((panel.width + panel.rows) * b),
+        factor + panel.factor, static_cast<int>((panel.width + panel.rows) * b),
         static_cast<int>(panel.width * b), z + panel.first * b * stride, below);
-    const double* from = below;
+    const Scalar* from = below;
     for (Index i = 0; i < panel.rows; ++i, ++row) {
-      double* to = z + *row * b * stride;
+      Scalar* to = z + *row * b * stride;
       for (std::size_t r = 0; r < b; ++r, from += stride, to += stride) {
         Lanes value = Lanes::load(to);
         value.subtract(Lanes::load(from));
@@ -313,35 +343,49 @@ void SparseCholesky::solve_some(double* x) {
   }
   for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
     row -= panel->rows;
-    double* to = below;
+    Scalar* to = below;
     for (Index i = 0; i < panel->rows; ++i)
       to = copy_block(z + row[i] * b * stride, b * stride, to);
     dense::backward_panel<Lanes>(
-        factor_.get() + panel->factor, static_cast<int>((panel->width + panel->rows) * b),
+        factor + panel->factor, static_cast<int>((panel->width + panel->rows) * b),
         static_cast<int>(panel->width * b), z + panel->first * b * stride, below);
   }
+  const double unscale = 1.0 / scale;
   for (Index j = 0; j < nodes_; ++j) {
-    const double* from = z + position_[j] * b * stride;
+    const Scalar* from = z + position_[j] * b * stride;
     double* to = x + j * b;
     for (std::size_t r = 0; r < b; ++r) {
-      for (int c = 0; c < Lanes::columns; ++c) to[c * n + r] = from[r * stride + c];
+      for (int c = 0; c < Lanes::columns; ++c) to[c * n + r] = unscale * from[r * stride + c];
     }
+  }
+}
+
+template <class Lanes>
+void SparseCholesky::solve_block(double* x, Workspace<typename Lanes::Scalar>& workspace,
+                                 double scale) {
+  if (block_ == 1) {
+    solve_some<Lanes, 1>(x, workspace, scale);
+  } else if (block_ == 4) {
+    solve_some<Lanes, 4>(x, workspace, scale);
+  } else {
+    solve_some<Lanes, 0>(x, workspace, scale);
   }
 }
 
 void SparseCholesky::solve(double* x, int columns) {
   const std::size_t n = static_cast<std::size_t>(rows());
   int c = 0;
-  for (; c + 3 <= columns; c += 3) {
-    if (block_ == 1) {
-      solve_some<dense::Three, 1>(x + c * n);
-    } else if (block_ == 4) {
-      solve_some<dense::Three, 4>(x + c * n);
-    } else {
-      solve_some<dense::Three, 0>(x + c * n);
-    }
-  }
-  for (; c < columns; ++c) solve_some<dense::One, 0>(x + c * n);
+  for (; c + 3 <= columns; c += 3) solve_block<dense::Three>(x + c * n, exact_);
+  for (; c < columns; ++c) solve_some<dense::One, 0>(x + c * n, exact_);
+}
+
+void SparseCholesky::solve_roughly(double* x) {
+  if (rough_.factor == nullptr) return solve(x, 3);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(rows()); ++i)
+    largest = std::max(largest, std::abs(x[i]));
+  // Single precision ends at 1e-38; gradients go below.
+  if (largest > 0.0) solve_block<dense::RoughThree>(x, rough_, 1.0 / largest);
 }
 
 }  // namespace pliant

@@ -35,6 +35,14 @@ class SparseCholesky {
   /// No allocation for up to three columns at a time (more are done in turns).
   void solve(double* x, int columns);
 
+  /// Lets `solve_roughly` work in single precision until the next factorisation if the pivots lie
+  /// close enough for that; after `factorize`. Allocates.
+  void allow_rough();
+  /// Solves in place for three right-hand sides, to about six digits in single precision (half the
+  /// memory to read, twice the numbers at a time) where `allow_rough` found that enough: for
+  /// metrics, whose last digits decide nothing. Elsewhere as `solve`.
+  void solve_roughly(double* x);
+
   Index rows() const { return nodes_ * block_; }
   /// Scalars stored in L, padding of the dense fronts included.
   std::size_t factor_size() const { return factor_size_; }
@@ -90,9 +98,19 @@ class SparseCholesky {
   /// of the first of them on, which lie at `target`.
   void extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld,
                   Index first, Index last) const;
-  /// Lanes: see substitution.h. Block: block_ where the compiler may know it, else 0.
+  /// What solving works on, in the precision of its lanes.
+  template <class Scalar>
+  struct Workspace {
+    std::unique_ptr<Scalar[]> factor;
+    std::vector<Scalar> gathered;  ///< right-hand sides in elimination order, as Lanes has them
+    std::vector<Scalar> below;     ///< rows below the columns of a panel
+  };
+  /// Lanes: see substitution.h. Block: block_ where the compiler may know it, else 0. Right-hand
+  /// sides are multiplied by `scale` on the way in and divided by it on the way out.
   template <class Lanes, int Block>
-  void solve_some(double* x);
+  void solve_some(double* x, Workspace<typename Lanes::Scalar>& workspace, double scale = 1.0);
+  template <class Lanes>
+  void solve_block(double* x, Workspace<typename Lanes::Scalar>& workspace, double scale = 1.0);
 
   int block_ = 1;
   Index nodes_ = 0;
@@ -103,10 +121,10 @@ class SparseCholesky {
   std::vector<Index> below_;
   std::vector<std::vector<Entry>> entries_;
   // Plain memory: filling it with zeros first would take as long as a tenth of a factorisation.
-  std::unique_ptr<double[]> factor_;
+  Workspace<double> exact_;
+  Workspace<float> rough_;  ///< its factor is null where `solve_roughly` solves exactly
   std::array<std::unique_ptr<double[]>, 2> stacks_;
-  std::vector<double> work_;
-  std::vector<double> gathered_;  ///< right-hand sides in elimination order, as Lanes has them
+  std::vector<double> packed_;  ///< tiles of a panel, while factorising
   std::size_t factor_size_ = 0;
 };
 

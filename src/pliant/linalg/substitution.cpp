@@ -20,8 +20,8 @@ inline void for_tiles(int n, F f) {
 
 /// sum[r] += sum over k < columns of L[r, k] y[k]; ld between the columns of L.
 template <class Lanes, int N>
-inline void add_rows(const double* l, std::ptrdiff_t ld, int columns, const double* y,
-                     Lanes (&sum)[N]) {
+inline void add_rows(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int columns,
+                     const typename Lanes::Scalar* y, Lanes (&sum)[N]) {
   for (int k = 0; k < columns; ++k, l += ld, y += Lanes::stride) {
     const Lanes yk = Lanes::load(y);
     for (int r = 0; r < N; ++r) sum[r].add(l[r], yk);
@@ -30,8 +30,8 @@ inline void add_rows(const double* l, std::ptrdiff_t ld, int columns, const doub
 
 /// sum[c] += sum over i < rows of L[i, c] y[i].
 template <class Lanes, int N>
-inline void add_columns(const double* l, std::ptrdiff_t ld, int rows, const double* y,
-                        Lanes (&sum)[N]) {
+inline void add_columns(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int rows,
+                        const typename Lanes::Scalar* y, Lanes (&sum)[N]) {
   for (std::ptrdiff_t i = 0; i < rows; ++i, y += Lanes::stride) {
     const Lanes yi = Lanes::load(y);
     for (int c = 0; c < N; ++c) sum[c].add(l[c * ld + i], yi);
@@ -39,12 +39,12 @@ inline void add_columns(const double* l, std::ptrdiff_t ld, int rows, const doub
 }
 
 template <class Lanes, int N>
-inline void store(const Lanes (&sum)[N], double* to) {
+inline void store(const Lanes (&sum)[N], typename Lanes::Scalar* to) {
   for (int r = 0; r < N; ++r) sum[r].store(to + r * Lanes::stride);
 }
 
 template <class Lanes, int N>
-inline void subtract(const Lanes (&sum)[N], double* from) {
+inline void subtract(const Lanes (&sum)[N], typename Lanes::Scalar* from) {
   for (int r = 0; r < N; ++r, from += Lanes::stride) {
     Lanes value = Lanes::load(from);
     value.subtract(sum[r]);
@@ -55,12 +55,14 @@ inline void subtract(const Lanes (&sum)[N], double* from) {
 }  // namespace
 
 template <class Lanes>
-void forward_panel(const double* panel, int rows, int columns, double* y, double* below) {
+void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
+                   typename Lanes::Scalar* y, typename Lanes::Scalar* below) {
+  using Scalar = typename Lanes::Scalar;
   const std::ptrdiff_t ld = rows;
-  double solved[kPanelBlock * Lanes::stride];
+  Scalar solved[kPanelBlock * Lanes::stride];
   for (int k = 0; k < columns; k += kPanelBlock) {
     const int n = std::min(kPanelBlock, columns - k);
-    double* block = y + k * Lanes::stride;
+    Scalar* block = y + k * Lanes::stride;
     if (k > 0) {
       for_tiles(n, [&](int i, auto size) {
         Lanes sum[size()] = {};
@@ -83,15 +85,17 @@ void forward_panel(const double* panel, int rows, int columns, double* y, double
 }
 
 template <class Lanes>
-void backward_panel(const double* panel, int rows, int columns, double* y, const double* below) {
+void backward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
+                    typename Lanes::Scalar* y, const typename Lanes::Scalar* below) {
+  using Scalar = typename Lanes::Scalar;
   const std::ptrdiff_t ld = rows;
-  double solved[kPanelBlock * Lanes::stride];
+  Scalar solved[kPanelBlock * Lanes::stride];
   for (int k = (columns - 1) / kPanelBlock * kPanelBlock; k >= 0; k -= kPanelBlock) {
     const int n = std::min(kPanelBlock, columns - k), next = k + n;
-    double* block = y + k * Lanes::stride;
+    Scalar* block = y + k * Lanes::stride;
     for_tiles(n, [&](int j, auto size) {
       Lanes sum[size()] = {};
-      const double* column = panel + (k + j) * ld;
+      const Scalar* column = panel + (k + j) * ld;
       add_columns(column + next, ld, columns - next, y + next * Lanes::stride, sum);
       add_columns(column + columns, ld, rows - columns, below, sum);
       subtract(sum, block + j * Lanes::stride);
@@ -109,5 +113,8 @@ template void forward_panel<One>(const double*, int, int, double*, double*);
 template void forward_panel<Three>(const double*, int, int, double*, double*);
 template void backward_panel<One>(const double*, int, int, double*, const double*);
 template void backward_panel<Three>(const double*, int, int, double*, const double*);
+
+template void forward_panel<RoughThree>(const float*, int, int, float*, float*);
+template void backward_panel<RoughThree>(const float*, int, int, float*, const float*);
 
 }  // namespace pliant::dense

@@ -49,16 +49,21 @@ Status LocalGlobal::set_up(const BlockMatrix& matrix, std::vector<bool> held) {
   const BlockMatrix system = reduced(matrix);
   if (Status s = factor_.analyze(system); !s.ok()) return s;
   ++analyses_;
-  ++factorizations_;
-  return factor_.factorize(system);
+  return factorize(system);
 }
 
 Status LocalGlobal::refactorize(const BlockMatrix& matrix) {
   evaluated_ = false;
   memory_.clear();
   if (free_count() == 0) return {};
+  return factorize(reduced(matrix));
+}
+
+Status LocalGlobal::factorize(const BlockMatrix& system) {
   ++factorizations_;
-  return factor_.factorize(reduced(matrix));
+  const Status status = factor_.factorize(system);
+  if (status.ok()) factor_.allow_rough();
+  return status;
 }
 
 BlockMatrix LocalGlobal::reduced(const BlockMatrix& matrix) {
@@ -133,7 +138,7 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
     memory_.direction(
         gradient_,
         [&](Vector& d) {
-          factor_.solve(d.data(), 3);
+          factor_.solve_roughly(d.data());
           d *= length;
         },
         direction_);

@@ -59,6 +59,7 @@ class LocalGlobal {
 
   Index free_count() const { return static_cast<Index>(point_of_free_.size()); }
   BlockMatrix reduced(const BlockMatrix& matrix);
+  Status factorize(const BlockMatrix& system);
   void gather(const Points& values, Vector& unknowns) const;
   void move(const Points& from, double alpha, const Vector& direction, Points& to) const;
 
