@@ -14,7 +14,6 @@ interface Case {
   handles: object[];
 }
 
-
 const cases: Case[] = [
   {
     name: "a sheet with a fixed side, lifted",

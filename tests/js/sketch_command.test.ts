@@ -2,6 +2,7 @@
 
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Folder, objPositions } from "./support/command.js";
+import { script } from "./support/edit_script.js";
 import { arc, camera, curved, limb, longArc, pixel, straight } from "./support/limb.js";
 import { pliant } from "./support/package.js";
 
@@ -12,7 +13,7 @@ const around = 8;
 const rings = 13;
 const bend = { method: "sketch", camera, reference: straight, bend: { target: arc } };
 const stretch = { ...bend, bend: { target: longArc }, refine: true };
-const edit = (...steps: object[]) => ({ format: "pliant-edit", version: 1, steps });
+const edit = (...steps: object[]) => script(steps);
 
 /** The limb as quads and two caps of `around` corners; u runs once around it, v along, and a seam lies where u is 0 and 1. */
 function quads(): string {
