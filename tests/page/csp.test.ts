@@ -1,9 +1,8 @@
 // The package on a page with a strict content-security policy: scripts of its own and WASM, nothing else.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, expect, test } from "vitest";
-import { dist, launch, serve } from "./support/browser.ts";
+import { expect, test } from "vitest";
+import { dist, errorsOf, serve } from "./support/browser.ts";
+import { library } from "./support/replay.ts";
+import { browser, useBrowser } from "./support/visit.ts";
 
 /** Lifts one end of a strip; the height a corner reaches. */
 const lift = `async (pliant) => {
@@ -23,25 +22,20 @@ const pages = {
   "/page.js": `import { init } from "./pliant.js"; window.lifted = await (${lift})(await init());`,
 };
 
-let browser: Browser;
-beforeAll(async () => (browser = await launch()));
-afterAll(() => browser?.close());
+useBrowser();
 
 test("pliant.js and pliant.wasm run under script-src 'self' 'wasm-unsafe-eval'", async () => {
   const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'";
   const server = await serve(dist, { "Content-Security-Policy": policy }, pages);
   const page = await browser.newPage();
-  const errors: string[] = [];
-  page.on("console", (message) => message.type() === "error" && !message.text().includes("favicon") && errors.push(message.text()));
-  page.on("pageerror", (error) => errors.push(error.message));
+  const errors = errorsOf(page);
   await page.goto(`${server.address}page.html`);
   await page.waitForFunction(() => "lifted" in window);
-  const { init } = (await import(join(dist, "pliant.js"))) as typeof import("../../bindings/js/index.ts");
-  const pliant = await init({ wasmBinary: readFileSync(join(dist, "pliant.wasm")) });
+  const pliant = await library();
   const expected = await (eval(lift) as (p: typeof pliant) => Promise<number>)(pliant);
   expect(expected).toBeGreaterThan(0.5);
   expect(await page.evaluate(() => (window as unknown as { lifted: number }).lifted)).toBe(expected);
-  expect(errors).toEqual([]);
+  expect(errors.filter((text) => !text.includes("favicon"))).toEqual([]);
   await page.close();
   await server.close();
 });

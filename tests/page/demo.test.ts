@@ -1,34 +1,16 @@
 // The page as a visitor meets it: served and from a disk, with mouse, keys and fingers.
-import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import type { Browser } from "playwright-core";
-import { centroid, demoFile, dist, farthest, launch, openDemo, serve, type Demo } from "./support/browser.ts";
+import { describe, expect, test } from "vitest";
+import { centroid, farthest, type DemoOptions } from "./support/browser.ts";
+import { touchScreen } from "./support/touch.ts";
+import { addressOf, ask, demo, useVisits, visit, ways } from "./support/visit.ts";
 
-let browser: Browser;
-let server: Awaited<ReturnType<typeof serve>>;
-let demo: Demo;
+useVisits();
 
-beforeAll(async () => {
-  browser = await launch();
-  server = await serve(`${dist}/demo`);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.close();
-});
-afterEach(async () => {
-  expect(demo.errors).toEqual([]);
-  await demo.page.context().close();
-});
+const open = (options?: DemoOptions) => visit("served", { tool: "pose", ...options });
 
-const open = async (options?: Parameters<typeof openDemo>[2]) => (demo = await openDemo(browser, server.address, { tool: "pose", ...options }));
-const ask = <T>(question: (hook: Window["pliantDemo"]) => T): Promise<T> =>
-  demo.page.evaluate(`(${question.toString()})(window.pliantDemo)`) as Promise<T>;
-
-describe.each(["served", "from a file"])("%s", (how) => {
-  const address = () => (how === "served" ? server.address : demoFile);
-
+describe.each(ways)("%s", (how) => {
   test("greets with a creature and a line to draw along; posing with a handle that asks to be dragged", async () => {
-    demo = await openDemo(browser, address());
+    await visit(how);
     const shape = await ask((hook) => hook.shape());
     expect(shape.id).toBe("creature");
     expect(shape.vertices).toBeGreaterThan(10_000);
@@ -41,11 +23,11 @@ describe.each(["served", "from a file"])("%s", (how) => {
     await demo.page.locator("#tool-pose").click();
     expect(await demo.page.locator("#drag-me").isVisible()).toBe(true);
     expect(demo.page.workers()).toHaveLength(1);
-    expect(demo.requests.filter((url) => !url.startsWith("blob:"))).toEqual([address()]);
+    expect(demo.requests.filter((url) => !url.startsWith("blob:"))).toEqual([addressOf(how)]);
   });
 
   test("bends when the handle is dragged; the fixed region stays", async () => {
-    demo = await openDemo(browser, address(), { tool: "pose" });
+    await visit(how, { tool: "pose" });
     const handle = await demo.handle();
     await demo.drag(handle, { x: handle.x + 60, y: handle.y - 110 });
     const [rest, now, fixed, shape] = [await ask((h) => h.rest()), await demo.positions(), await ask((h) => h.fixed()), await ask((h) => h.shape())];
@@ -63,7 +45,7 @@ describe.each(["served", "from a file"])("%s", (how) => {
 });
 
 test("undo goes back, redo goes forth, reset goes to rest", async () => {
-  const { page, idle } = await open();
+  const { page } = await open();
   const { diagonal } = await ask((hook) => hook.shape());
   const rest = await demo.positions();
   const handle = await demo.handle();
@@ -73,43 +55,35 @@ test("undo goes back, redo goes forth, reset goes to rest", async () => {
   const second = await demo.positions();
   expect(farthest(first, second)).toBeGreaterThan(0.05 * diagonal);
 
-  await page.keyboard.press("Control+z");
-  await idle();
+  await demo.press("Control+z");
   expect(farthest(await demo.positions(), first)).toBeLessThan(1e-4 * diagonal);
-  await page.locator("#undo").click();
-  await idle();
+  await demo.click("#undo");
   expect(farthest(await demo.positions(), rest)).toBeLessThan(1e-5 * diagonal);
   expect(await page.locator("#undo").isDisabled()).toBe(true);
   await page.locator("#redo").click();
-  await page.keyboard.press("Control+y");
-  await idle();
+  await demo.press("Control+y");
   expect(farthest(await demo.positions(), second)).toBeLessThan(1e-4 * diagonal);
-  await page.locator("#reset").click();
-  await idle();
+  await demo.click("#reset");
   expect(farthest(await demo.positions(), rest)).toBeLessThan(1e-6 * diagonal);
-  await page.locator("#undo").click();
-  await idle();
+  await demo.click("#undo");
   expect(farthest(await demo.positions(), second)).toBeLessThan(1e-4 * diagonal);
 });
 
 test("undo also takes back the choice of a shape and of an option", async () => {
-  const { page, idle } = await open();
+  const { page } = await open();
   await demo.choose("plane");
   await page.locator("#option-nodeCount").focus();
-  await page.keyboard.press("ArrowLeft");
-  await idle();
+  await demo.press("ArrowLeft");
   expect(await page.locator("#option-nodeCount").inputValue()).toBe("240");
-  await page.locator("#undo").click();
-  await idle();
+  await demo.click("#undo");
   expect(await page.locator("#option-nodeCount").inputValue()).toBe("250");
-  await page.locator("#undo").click();
-  await idle();
+  await demo.click("#undo");
   expect(await ask((hook) => hook.shape().id)).toBe("creature");
   expect(await page.locator('input[value="creature"]').isChecked()).toBe(true);
 });
 
 test("the brush fixes and frees what it passes over", async () => {
-  const { page, idle } = await open();
+  const { page } = await open();
   const before = await ask((hook) => hook.fixed());
   const { x, y } = await ask((hook) => {
     const rest = hook.rest();
@@ -130,8 +104,7 @@ test("the brush fixes and frees what it passes over", async () => {
   await demo.drag({ x, y }, { x: x + 15, y: y + 20 }, { x, y: y + 25 });
   expect(await ask((hook) => hook.fixed())).not.toContain(under);
   await page.locator("#undo").click();
-  await page.locator("#undo").click();
-  await idle();
+  await demo.click("#undo");
   expect(await ask((hook) => hook.fixed())).toEqual(before);
 });
 
@@ -166,7 +139,7 @@ test("the ring turns a handle in the picture", async () => {
 });
 
 test("everything can be done with keys", async () => {
-  const { page, idle } = await open();
+  const { page } = await open();
   const { diagonal } = await ask((hook) => hook.shape());
   const rest = await demo.positions();
   await page.locator("#view").focus();
@@ -175,32 +148,27 @@ test("everything can be done with keys", async () => {
   expect(await page.evaluate(() => document.activeElement!.matches(":focus-visible"))).toBe(true);
   const before = await demo.handle();
   for (let i = 0; i < 5; i++) await page.keyboard.press("Shift+ArrowUp");
-  await page.keyboard.press("]");
-  await idle();
+  await demo.press("]");
   const after = await demo.handle();
   expect(before.y - after.y).toBeGreaterThan(100);
   expect(farthest(rest, await demo.positions(), after.vertices)).toBeGreaterThan(0.05 * diagonal);
 
   // A run of nudges is one step of the history.
-  await page.keyboard.press("Control+z");
-  await idle();
+  await demo.press("Control+z");
   expect(farthest(rest, await demo.positions())).toBeLessThan(1e-5 * diagonal);
-  await page.keyboard.press("Delete");
-  await idle();
+  await demo.press("Delete");
   expect(await ask((hook) => hook.handles().length)).toBe(0);
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
 
   await page.keyboard.press("3");
   await page.keyboard.press("ArrowRight");
   expect(await page.locator("#cross").isVisible()).toBe(true);
-  await page.keyboard.press("Enter");
-  await idle();
+  await demo.press("Enter");
   expect(await ask((hook) => hook.handles().length)).toBe(1);
   await page.keyboard.press("4");
   const fixed = await ask((hook) => hook.fixed().length);
   for (let i = 0; i < 6; i++) await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("Enter");
-  await idle();
+  await demo.press("Enter");
   expect(await ask((hook) => hook.fixed().length)).toBeGreaterThan(fixed);
 });
 
@@ -209,11 +177,9 @@ test("a finger drags a handle", async () => {
   const { diagonal } = await ask((hook) => hook.shape());
   const rest = await demo.positions();
   const { x, y, vertices } = await demo.handle();
-  const client = await page.context().newCDPSession(page);
-  const touch = (type: "touchStart" | "touchMove" | "touchEnd", dx = 0, dy = 0) =>
-    client.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x: x + dx, y: y + dy }] });
-  await touch("touchStart");
-  for (let i = 1; i <= 5; i++) await touch("touchMove", -8 * i, -20 * i);
+  const touch = await touchScreen(page);
+  await touch("touchStart", { x, y });
+  for (let i = 1; i <= 5; i++) await touch("touchMove", { x: x - 8 * i, y: y - 20 * i });
   await touch("touchEnd");
   await idle();
   expect(farthest(rest, await demo.positions(), vertices)).toBeGreaterThan(0.05 * diagonal);

@@ -1,20 +1,14 @@
 // Files in and out: what is exported is what is on the screen, what is dropped is read or refused in words.
 import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { NodeIO } from "@gltf-transform/core";
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
-import { demoFile, dist, farthest, launch, openDemo, type Demo } from "./support/browser.ts";
+import { beforeEach, expect, test } from "vitest";
+import { farthest } from "./support/browser.ts";
+import { replay } from "./support/replay.ts";
+import { ask, demo, rest, useVisits, visit } from "./support/visit.ts";
 
-let browser: Browser;
-let demo: Demo;
-
-beforeAll(async () => (browser = await launch()));
-afterAll(() => browser?.close());
-beforeEach(async () => (demo = await openDemo(browser, demoFile, { tool: "pose" })));
-afterEach(async () => {
-  expect(demo.errors).toEqual([]);
-  await demo.page.context().close();
+useVisits();
+beforeEach(async () => {
+  await visit("from a file", { tool: "pose" });
 });
 
 async function exported(kind: "obj" | "glb" | "script"): Promise<{ name: string; bytes: Buffer }> {
@@ -34,7 +28,9 @@ async function drop(name: string, content: string): Promise<void> {
 }
 
 const notice = () => demo.page.locator("#notice span").innerText();
-const shape = () => demo.page.evaluate(() => window.pliantDemo.shape());
+const shape = () => ask((hook) => hook.shape());
+/** Waits until a file is there. */
+const shows = (file: string) => demo.page.waitForFunction((name) => window.pliantDemo.shape().name === name, file);
 
 /** Bends the creature: two drags under one grab, and a handle placed before them. */
 async function bend(): Promise<void> {
@@ -87,14 +83,11 @@ test("the exported script bends the rest shape to the same pose with the package
   expect(script).toMatchObject({ format: "pliant-edit", version: 1 });
   expect(script.steps[0].drag.length).toBeGreaterThan(1);
 
-  const [rest, positions, { diagonal }] = [await demo.page.evaluate(() => window.pliantDemo.rest()), await demo.positions(), await shape()];
+  const [before, positions, { diagonal }] = [await rest(), await demo.positions(), await shape()];
   const obj = (await exported("obj")).bytes.toString();
   const triangles = obj.split("\n").filter((line) => line.startsWith("f ")).flatMap((line) => line.split(" ").slice(1).map((c) => parseInt(c, 10) - 1));
-  const { init } = (await import(join(dist, "pliant.js"))) as typeof import("../../bindings/js/index.ts");
-  const pliant = await init({ wasmBinary: readFileSync(join(dist, "pliant.wasm")) });
-  const result = await pliant.edit(pliant.shape({ positions: Float32Array.from(rest), triangles }), script);
-  expect(farthest(rest, positions)).toBeGreaterThan(0.1 * diagonal);
-  expect(farthest(result.positions, positions)).toBeLessThan(1e-3 * diagonal);
+  expect(farthest(before, positions)).toBeGreaterThan(0.1 * diagonal);
+  expect(farthest((await replay(script, before, triangles)).positions, positions)).toBeLessThan(1e-3 * diagonal);
 });
 
 /** A sheet of 12 x 12 quads with all that an OBJ may hold beside coordinates. */
@@ -113,10 +106,10 @@ function quadSheet(): string {
 test("a dropped OBJ keeps its vertex order, and its export everything but the coordinates", async () => {
   const text = quadSheet();
   await drop("my sheet.obj", text);
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().id === "file");
+  await shows("my sheet.obj");
   await demo.idle();
   expect(await shape()).toMatchObject({ name: "my sheet.obj", vertices: 169, triangles: 289 });
-  expect(await demo.page.evaluate(() => window.pliantDemo.rest())).toEqual(vertexLines(text));
+  expect(await rest()).toEqual(vertexLines(text));
   await demo.page.keyboard.press("3");
   const near = await demo.page.evaluate(() => window.pliantDemo.vertexAt(13 * 11 + 6));
   await demo.drag(near, { x: near.x + 20, y: near.y - 60 });
@@ -139,14 +132,14 @@ test("a dropped picture becomes a sheet that bends in its plane", async () => {
     return data;
   });
   await demo.page.dispatchEvent("body", "drop", { dataTransfer: transfer });
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "half.png");
-  const rest = await demo.page.evaluate(() => window.pliantDemo.rest());
-  expect(Math.max(...rest)).toBeLessThan(0.6); // cells that show nothing are left out
+  await shows("half.png");
+  const before = await rest();
+  expect(Math.max(...before)).toBeLessThan(0.6); // cells that show nothing are left out
   await demo.page.keyboard.press("3");
   const top = await demo.page.evaluate(() => window.pliantDemo.vertexAt(10));
   await demo.drag({ x: top.x, y: top.y + 3 }, { x: top.x + 40, y: top.y - 20 });
   const now = await demo.positions();
-  expect(farthest(rest, now)).toBeGreaterThan(0.05);
+  expect(farthest(before, now)).toBeGreaterThan(0.05);
   expect(now.every((x, i) => i % 3 !== 2 || x === 0)).toBe(true);
 });
 
@@ -155,20 +148,20 @@ test("other formats open as well", async () => {
   const glb = (await exported("glb")).bytes;
   const { vertices } = await shape();
   await demo.page.locator("#file").setInputFiles({ name: "sheet.glb", mimeType: "model/gltf-binary", buffer: glb });
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "sheet.glb");
+  await shows("sheet.glb");
   expect((await shape()).vertices).toBe(vertices);
 
   await drop("dots.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n");
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "dots.xyz");
+  await shows("dots.xyz");
   expect(await shape()).toMatchObject({ vertices: 5, triangles: 0 });
 
   await drop("tetra.ply", `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4
 property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n`);
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "tetra.ply");
+  await shows("tetra.ply");
   expect(await shape()).toMatchObject({ vertices: 4, triangles: 4 });
 
   await drop("one.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
-  await demo.page.waitForFunction(() => window.pliantDemo.shape().name === "one.stl");
+  await shows("one.stl");
   expect(await shape()).toMatchObject({ vertices: 3, triangles: 1 });
   await demo.idle();
 });

@@ -1,24 +1,13 @@
 // Methods on the page: choosing one, changing what it is made of while it moves, what falls and what rests.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
-import { demoFile, dist, farthest, launch, openDemo, type Demo } from "./support/browser.ts";
+import { beforeEach, expect, test } from "vitest";
+import { farthest } from "./support/browser.ts";
+import { replayed } from "./support/replay.ts";
+import { ask, demo, diagonal, useVisits, visit } from "./support/visit.ts";
 
-let browser: Browser;
-let demo: Demo;
-
-beforeAll(async () => (browser = await launch()));
-afterAll(() => browser?.close());
-beforeEach(async () => (demo = await openDemo(browser, demoFile, { tool: "pose" })));
-afterEach(async () => {
-  expect(demo.errors).toEqual([]);
-  await demo.page.context().close();
+useVisits();
+beforeEach(async () => {
+  await visit("from a file", { tool: "pose" });
 });
-
-const ask = <T>(question: (hook: Window["pliantDemo"]) => T): Promise<T> =>
-  demo.page.evaluate(`(${question.toString()})(window.pliantDemo)`) as Promise<T>;
-const diagonal = async () => (await ask((hook) => hook.shape())).diagonal;
 
 async function setMethod(id: string): Promise<void> {
   await demo.page.locator("#pace").fill("20"); // fewer pictures, which are drawn without a GPU
@@ -36,13 +25,6 @@ interface Script {
   steps: { method: string; options: Record<string, unknown>; drag?: { options?: Record<string, unknown> }[] }[];
 }
 
-async function replayed(): Promise<{ positions: ArrayLike<number>; report: { steps: { drag?: { factorizations: number }[] }[] } }> {
-  const [positions, triangles, script] = [await ask((h) => h.rest()), await ask((h) => h.triangles()), await ask((h) => h.script())];
-  const { init } = (await import(join(dist, "pliant.js"))) as typeof import("../../bindings/js/index.ts");
-  const pliant = await init({ wasmBinary: readFileSync(join(dist, "pliant.wasm")) });
-  return pliant.edit(pliant.shape({ positions: Float32Array.from(positions), triangles }), script as never);
-}
-
 test.each(["arap", "edge-material"])("%s: the handle is met exactly, the fixed region stays, undo goes back", async (method) => {
   await setMethod(method);
   const [rest, fixed] = [await ask((hook) => hook.rest()), await ask((hook) => hook.fixed())];
@@ -58,11 +40,9 @@ test.each(["arap", "edge-material"])("%s: the handle is met exactly, the fixed r
   expect(script.steps[0]!.method).toBe(method);
   expect(farthest((await replayed()).positions, now)).toBeLessThan(2e-3 * (await diagonal()));
   await demo.shot(`method-${method}`);
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  await demo.press("Control+z");
   expect(farthest(rest, await demo.positions())).toBeLessThan(1e-4 * (await diagonal()));
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  await demo.press("Control+z");
   expect(await demo.page.locator("#method-choice").inputValue()).toBe("embedded-graph");
 });
 
@@ -84,8 +64,7 @@ test("a cloth falls from its middle, and comes to rest; without gravity it does 
   expect(script.steps[0]!.drag!.at(-1)!.options).toEqual({ gravity: [0, 0, 0] });
   const { report } = await replayed();
   expect(report.steps[0]!.drag!.every((entry) => entry.factorizations === 0)).toBe(true);
-  await demo.page.locator("#reset").click();
-  await demo.idle();
+  await demo.click("#reset");
   expect(farthest(rest, await demo.positions())).toBe(0);
 });
 
@@ -96,8 +75,7 @@ test("a stiffer cloth stretches less; the change is one step back", async () => 
   await slide("gravity", 3);
   const heavy = await lowest();
   expect(heavy).toBeLessThan(soft - 0.02);
-  await demo.page.locator("#undo").click();
-  await demo.idle();
+  await demo.click("#undo");
   expect(Math.abs((await lowest()) - soft)).toBeLessThan(0.02);
   expect(await demo.page.locator("#option-gravity").inputValue()).toBe("1");
 });
@@ -114,8 +92,7 @@ test("the grain is painted with strokes, and goes into the script", async () => 
   const { field } = steps[0]!.drag?.at(-1)?.options ?? steps[0]!.options;
   expect(field.strokes).toHaveLength(1);
   expect(field.strokes[0]!.length).toBeGreaterThan(2);
-  await demo.page.locator("#clear-strokes").click();
-  await demo.idle();
+  await demo.click("#clear-strokes");
   expect(await demo.page.locator("#clear-strokes").isVisible()).toBe(false);
 });
 

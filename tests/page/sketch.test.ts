@@ -1,28 +1,12 @@
 // Strokes on the page: with a mouse, a pen and fingers; what they do is undone, exported and replayed.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import { demoFile, dist, farthest, launch, openDemo, serve, type Demo } from "./support/browser.ts";
+import { describe, expect, test } from "vitest";
+import { farthest, type Place } from "./support/browser.ts";
+import { replayed } from "./support/replay.ts";
+import { touchScreen } from "./support/touch.ts";
+import { ask, demo, diagonal, rest, useVisits, visit, ways } from "./support/visit.ts";
 
-let browser: Browser;
-let server: Awaited<ReturnType<typeof serve>>;
-let demo: Demo;
+useVisits();
 
-beforeAll(async () => {
-  browser = await launch();
-  server = await serve(`${dist}/demo`);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.close();
-});
-afterEach(async () => {
-  expect(demo.errors).toEqual([]);
-  await demo.page.context().close();
-});
-
-type Place = { x: number; y: number };
 type Point = [number, number, number];
 
 /** Along the creature's right arm, up beside its head, and down to its feet. */
@@ -30,8 +14,6 @@ const arm: Point[] = [[-0.34, 1.04, 0.14], [-0.56, 0.98, 0.16], [-0.82, 1.05, 0.
 const up: Point[] = [[-0.34, 1.04, 0.14], [-0.62, 1, 0.16], [-0.85, 1.12, 0.2], [-0.98, 1.42, 0.24]];
 const down: Point[] = [[-0.34, 1.04, 0.14], [-0.56, 0.94, 0.16], [-0.68, 0.76, 0.2], [-0.72, 0.5, 0.24]];
 
-const ask = <T>(question: (hook: Window["pliantDemo"]) => T): Promise<T> =>
-  demo.page.evaluate(`(${question.toString()})(window.pliantDemo)`) as Promise<T>;
 const onPage = (points: Point[]): Promise<Place[]> =>
   demo.page.evaluate((list) => list.map((p) => window.pliantDemo.project(p)), points);
 
@@ -40,24 +22,12 @@ async function stroke(points: Point[]): Promise<void> {
   await demo.drag(first!, ...rest);
 }
 const limb = async () => (await ask((hook) => hook.limb()))!;
-const diagonal = async () => (await ask((hook) => hook.shape())).diagonal;
-const rest = () => ask((hook) => hook.rest());
 /** Vertices by what the stroke made of them. */
 const labelled = (labels: number[], wanted: (label: number) => boolean) => [...labels.keys()].filter((v) => wanted(labels[v]!));
 
-/** The exported script, run by the package over the shape as it was opened. */
-async function replayed(): Promise<ArrayLike<number>> {
-  const [positions, script] = [await rest(), await ask((hook) => hook.script())];
-  const triangles = await ask((hook) => hook.triangles());
-  const { init } = (await import(join(dist, "pliant.js"))) as typeof import("../../bindings/js/index.ts");
-  const pliant = await init({ wasmBinary: readFileSync(join(dist, "pliant.wasm")) });
-  const result = await pliant.edit(pliant.shape({ positions: Float32Array.from(positions), triangles }), script as never);
-  return result.positions;
-}
-
-describe.each(["served", "from a file"])("%s", (how) => {
+describe.each(ways)("%s", (how) => {
   test("a stroke along an arm chooses it, a second bends it there", async () => {
-    demo = await openDemo(browser, how === "served" ? server.address : demoFile);
+    await visit(how);
     const before = await rest();
     await stroke(arm);
     const { labels, s } = await limb();
@@ -83,7 +53,7 @@ describe.each(["served", "from a file"])("%s", (how) => {
 });
 
 test("the preview follows the hand before it lets go, and ends where the stroke ends", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   const before = await rest();
   const [first, ...more] = await onPage(up);
@@ -99,7 +69,7 @@ test("the preview follows the hand before it lets go, and ends where the stroke 
 });
 
 test("further strokes pose the same limb; undo and redo walk through all of them", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   const poses = [await demo.positions()];
   await stroke(arm);
   const { labels } = await limb();
@@ -110,23 +80,19 @@ test("further strokes pose the same limb; undo and redo walk through all of them
   expect((await limb()).labels).toEqual(labels);
   expect(farthest(poses[1]!, poses[2]!)).toBeGreaterThan(0.1 * (await diagonal()));
   const tolerance = 1e-6 * (await diagonal());
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  await demo.press("Control+z");
   expect(farthest(await demo.positions(), poses[1]!)).toBeLessThan(tolerance);
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  await demo.press("Control+z");
   expect(farthest(await demo.positions(), poses[0]!)).toBe(0);
   expect(await limb()).toBeDefined();
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  await demo.press("Control+z");
   expect(await ask((hook) => hook.limb())).toBeUndefined();
-  for (let i = 0; i < 3; i++) await demo.page.keyboard.press("Control+y");
-  await demo.idle();
+  await demo.press("Control+y", "Control+y", "Control+y");
   expect(farthest(await demo.positions(), poses[2]!)).toBeLessThan(tolerance);
 });
 
 test("a stroke twists, another thickens; the script replays to the same shape", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   await stroke(up);
   const bent = await demo.positions();
@@ -145,29 +111,28 @@ test("a stroke twists, another thickens; the script replays to the same shape", 
   const { steps } = (await ask((hook) => hook.script())) as { steps: Record<string, unknown>[] };
   expect(steps).toHaveLength(1);
   expect(Object.keys(steps[0]!)).toEqual(expect.arrayContaining(["camera", "reference", "bend", "twist", "scale"]));
-  expect(farthest(await replayed(), await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
 });
 
 test("limb after limb, then a handle: one script holds it all", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   await stroke(up);
   const [left, leftDown] = [arm, down].map((points) => points.map(([x, y, z]): Point => [-x, y, z]));
   await stroke(left!);
   expect((await limb()).curve[0]!.x).toBeGreaterThan((await onPage([[0, 1, 0]]))[0]!.x);
   await stroke(leftDown!);
-  await demo.page.locator("#tool-pose").click();
-  await demo.idle();
+  await demo.click("#tool-pose");
   const paw = await demo.handle();
   await demo.drag(paw, { x: paw.x - 30, y: paw.y - 30 });
   const { steps } = (await ask((hook) => hook.script())) as { steps: { method: string }[] };
   expect(steps.map((step) => step.method)).toEqual(["sketch", "sketch", "embedded-graph"]);
-  expect(farthest(await replayed(), await demo.positions())).toBeLessThan(1e-3 * (await diagonal()));
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-3 * (await diagonal()));
   await demo.shot("two-limbs");
 });
 
 test("after the camera has turned, the next stroke is meant as it is seen from there", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   await stroke(up);
   await demo.page.locator("#view").focus();
@@ -179,25 +144,22 @@ test("after the camera has turned, the next stroke is meant as it is seen from t
   const share = again.labels.filter((label, v) => (label > 0) === (labels[v]! > 0)).length / labels.length;
   expect(share).toBeGreaterThan(0.99);
   expect(again.curve.at(-1)!.y).toBeGreaterThan(end.y + 60);
-  expect(farthest(await replayed(), await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
-  await demo.page.keyboard.press("Control+z"); // one stroke, one step back
-  await demo.idle();
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
+  await demo.press("Control+z"); // one stroke, one step back
   expect(Math.abs((await limb()).curve.at(-1)!.y - end.y)).toBeLessThan(2);
 });
 
 test("morph, smoothing, refinement, mirror and the curves", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   await stroke(up);
   const size = await diagonal();
   const [before, whole] = [await rest(), await demo.positions()];
   const tip = farthest(before, whole);
   await demo.page.locator("#morph").focus();
-  await demo.page.keyboard.press("Home");
-  await demo.idle();
+  await demo.press("Home");
   expect(farthest(before, await demo.positions())).toBeLessThan(1e-6 * size);
-  await demo.page.keyboard.press("End");
-  await demo.idle();
+  await demo.press("End");
   expect(farthest(whole, await demo.positions())).toBeLessThan(1e-6 * size);
 
   await demo.page.locator("#mirror").check();
@@ -208,27 +170,26 @@ test("morph, smoothing, refinement, mirror and the curves", async () => {
 
   await demo.page.locator("#curves summary").click();
   await demo.page.locator('.knot[aria-label="Thickness at 4 of 4"]').focus();
-  for (let i = 0; i < 12; i++) await demo.page.keyboard.press("ArrowUp");
-  await demo.idle();
+  await demo.press(...Array<string>(12).fill("ArrowUp"));
   expect(farthest(both, await demo.positions())).toBeGreaterThan(0.01 * size);
+  const { steps: [{ scale }] } = (await ask((hook) => hook.script())) as { steps: [{ scale: { profile: [number, number][] } }] };
+  expect(scale.profile.at(-1)![1]).toBeCloseTo(1.6, 6); // every press counts, also while the one before is carried out
   await demo.page.locator("#keep-length").uncheck();
   await stroke([[-0.34, 1.04, 0.14], [-0.8, 1, 0.16], [-1.3, 1.3, 0.2], [-1.4, 1.9, 0.24]]);
   const { vertices } = await ask((hook) => hook.shape());
   await demo.page.locator("#refine").check();
   await demo.idle();
   expect((await ask((hook) => hook.shape())).vertices).toBeGreaterThan(vertices);
-  expect(farthest(await replayed(), await demo.positions())).toBeLessThan(1e-6 * size);
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-6 * size);
   await demo.shot("refined");
-  await demo.page.locator("#undo").click();
-  await demo.idle();
+  await demo.click("#undo");
   expect((await ask((hook) => hook.shape())).vertices).toBe(vertices);
-  await demo.page.locator("#undo").click();
-  await demo.idle();
+  await demo.click("#undo");
   expect(await ask((hook) => hook.limb())).toBeDefined();
 });
 
 test("a line across the limb makes what lies beyond it rigid; a solver finishes the pose", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   await stroke(arm);
   const before = (await limb()).labels;
   const [wrist] = await onPage([[-0.74, 1.03, 0.2]]);
@@ -245,24 +206,24 @@ test("a line across the limb makes what lies beyond it rigid; a solver finishes 
   const finished = await demo.positions();
   expect(farthest(sketched, finished, rigid)).toBeLessThan(1e-5 * (await diagonal())); // the handle
   expect(farthest(sketched, finished)).toBeGreaterThan(1e-4 * (await diagonal()));
-  expect(farthest(await replayed(), finished)).toBeLessThan(1e-6 * (await diagonal()));
-  await demo.page.keyboard.press("Control+z");
-  await demo.idle();
+  expect(farthest((await replayed()).positions, finished)).toBeLessThan(1e-6 * (await diagonal()));
+  await demo.press("Control+z");
   expect(farthest(sketched, await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
 });
 
 test("a pen draws with all its samples; the palm beside it does nothing", async () => {
-  demo = await openDemo(browser, server.address, { hasTouch: true });
+  await visit("served", { hasTouch: true });
   const client = await demo.page.context().newCDPSession(demo.page);
+  const touch = await touchScreen(demo.page);
   const places = await onPage(arm);
   const pen = (type: "mousePressed" | "mouseMoved" | "mouseReleased", { x, y }: Place) =>
     client.send("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: type === "mouseReleased" ? 0 : 1, pointerType: "pen", clickCount: 1 });
   await pen("mousePressed", places[0]!);
   await pen("mouseMoved", places[1]!);
   const palm = { x: places[0]!.x + 160, y: places[0]!.y + 40, radiusX: 40, radiusY: 50 };
-  await client.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [palm] });
-  await client.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: [{ ...palm, y: palm.y + 60 }] });
-  await client.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await touch("touchStart", palm);
+  await touch("touchMove", { ...palm, y: palm.y + 60 });
+  await touch("touchEnd");
   for (const place of places.slice(2)) await pen("mouseMoved", place);
   await pen("mouseReleased", places.at(-1)!);
   await demo.idle();
@@ -271,10 +232,8 @@ test("a pen draws with all its samples; the palm beside it does nothing", async 
 });
 
 test("one finger draws, two turn the view", async () => {
-  demo = await openDemo(browser, server.address, { hasTouch: true });
-  const client = await demo.page.context().newCDPSession(demo.page);
-  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...touchPoints: Place[]) =>
-    client.send("Input.dispatchTouchEvent", { type, touchPoints: touchPoints.map((p, id) => ({ ...p, id, radiusX: 6, radiusY: 6 })) });
+  await visit("served", { hasTouch: true });
+  const touch = await touchScreen(demo.page);
   const places = await onPage(arm);
   await touch("touchStart", places[0]!);
   for (const [i, to] of places.slice(1).entries()) {
@@ -300,7 +259,7 @@ test("one finger draws, two turn the view", async () => {
 });
 
 test("a stroke beside the shape turns the camera; what cannot be sketched on opens with handles", async () => {
-  demo = await openDemo(browser, server.address);
+  await visit("served");
   const [before] = await onPage([[0, 1.6, 0.4]]);
   await demo.drag({ x: 120, y: 400 }, { x: 200, y: 420 });
   const [after] = await onPage([[0, 1.6, 0.4]]);

@@ -39,6 +39,20 @@ export async function serve(folder: string, headers: Record<string, string> = {}
   return { address: `http://127.0.0.1:${port}/`, close: () => new Promise((resolve) => server.close(resolve)) };
 }
 
+/** Console errors and uncaught exceptions of a page, as they come. */
+export function errorsOf(page: Page): string[] {
+  const errors: string[] = [];
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(error.message));
+  return errors;
+}
+
+/** Pixels on the page. */
+export interface Place {
+  x: number;
+  y: number;
+}
+
 export interface Demo {
   page: Page;
   /** Console errors and uncaught exceptions so far. */
@@ -51,7 +65,11 @@ export interface Demo {
   /** Chooses a shape of the page and waits for it. */
   choose(id: string): Promise<void>;
   /** Presses at the first place, moves through the others, releases. */
-  drag(...path: { x: number; y: number }[]): Promise<void>;
+  drag(...path: Place[]): Promise<void>;
+  /** Presses keys, one at once after another, and waits for what they do. */
+  press(...keys: string[]): Promise<void>;
+  /** Clicks something and waits for what it does. */
+  click(selector: string): Promise<void>;
   /** Keeps a picture in artifacts/. */
   shot(name: string): Promise<void>;
 }
@@ -59,15 +77,13 @@ export interface Demo {
 export const demoFile = pathToFileURL(join(dist, "demo/index.html")).href;
 
 /** `tool`: the one to start with instead of the page's own. */
-export async function openDemo(
-  browser: Browser, address: string, { tool, ...options }: BrowserContextOptions & { tool?: string } = {},
-): Promise<Demo> {
+export type DemoOptions = BrowserContextOptions & { tool?: string };
+
+export async function openDemo(browser: Browser, address: string, { tool, ...options }: DemoOptions = {}): Promise<Demo> {
   const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
-  const errors: string[] = [];
+  const errors = errorsOf(page);
   const requests: string[] = [];
-  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
-  page.on("pageerror", (error) => errors.push(error.message));
   page.on("request", (request) => requests.push(request.url()));
   await page.goto(address);
   await page.waitForFunction(() => window.pliantDemo !== undefined);
@@ -88,6 +104,14 @@ export async function openDemo(
       await page.mouse.down();
       for (const { x, y } of path) await page.mouse.move(x, y, { steps: 4 });
       await page.mouse.up();
+      await idle();
+    },
+    press: async (...keys) => {
+      for (const key of keys) await page.keyboard.press(key);
+      await idle();
+    },
+    click: async (selector) => {
+      await page.locator(selector).click();
       await idle();
     },
     shot: async (name) => {
