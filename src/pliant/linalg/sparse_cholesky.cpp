@@ -292,6 +292,8 @@ void SparseCholesky::allow_rough() {
   // Diagonals hold inverse pivots. Their spread bounds the condition of the matrix from below, and
   // for the matrices of surfaces it follows it closely.
   constexpr double kMostSpread = 300.0;
+  rough_.factor.reset();
+  if (block_ != 1) return;
   double least = 1e12, most = 1e-12;
   for (const Panel& panel : panels_) {
     const std::size_t height = static_cast<std::size_t>(panel.width + panel.rows) * block_;
@@ -301,7 +303,6 @@ void SparseCholesky::allow_rough() {
       most = std::max(most, pivot);
     }
   }
-  rough_.factor.reset();
   if (!(most <= kMostSpread * least)) return;
   rough_.factor.reset(new float[factor_size_]);
   std::copy_n(exact_.factor.get(), factor_size_, rough_.factor.get());
@@ -360,22 +361,18 @@ void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& wo
   }
 }
 
-template <class Lanes>
-void SparseCholesky::solve_block(double* x, Workspace<typename Lanes::Scalar>& workspace,
-                                 double scale) {
-  if (block_ == 1) {
-    solve_some<Lanes, 1>(x, workspace, scale);
-  } else if (block_ == 4) {
-    solve_some<Lanes, 4>(x, workspace, scale);
-  } else {
-    solve_some<Lanes, 0>(x, workspace, scale);
-  }
-}
-
 void SparseCholesky::solve(double* x, int columns) {
   const std::size_t n = static_cast<std::size_t>(rows());
   int c = 0;
-  for (; c + 3 <= columns; c += 3) solve_block<dense::Three>(x + c * n, exact_);
+  for (; c + 3 <= columns; c += 3) {
+    if (block_ == 1) {
+      solve_some<dense::Three, 1>(x + c * n, exact_);
+    } else if (block_ == 4) {
+      solve_some<dense::Three, 4>(x + c * n, exact_);
+    } else {
+      solve_some<dense::Three, 0>(x + c * n, exact_);
+    }
+  }
   for (; c < columns; ++c) solve_some<dense::One, 0>(x + c * n, exact_);
 }
 
@@ -385,7 +382,7 @@ void SparseCholesky::solve_roughly(double* x) {
   for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(rows()); ++i)
     largest = std::max(largest, std::abs(x[i]));
   // Single precision ends at 1e-38; gradients go below.
-  if (largest > 0.0) solve_block<dense::RoughThree>(x, rough_, 1.0 / largest);
+  if (largest > 0.0) solve_some<dense::RoughThree, 1>(x, rough_, 1.0 / largest);
 }
 
 }  // namespace pliant

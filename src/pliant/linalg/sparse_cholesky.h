@@ -35,8 +35,8 @@ class SparseCholesky {
   /// No allocation for up to three columns at a time (more are done in turns).
   void solve(double* x, int columns);
 
-  /// Lets `solve_roughly` work in single precision until the next factorisation if the pivots lie
-  /// close enough for that; after `factorize`. Allocates.
+  /// Lets `solve_roughly` work in single precision until the next factorisation if blocks are
+  /// of 1 and the pivots lie close enough for that; after `factorize`. Allocates.
   void allow_rough();
   /// Solves in place for three right-hand sides, to about six digits in single precision (half the
   /// memory to read, twice the numbers at a time) where `allow_rough` found that enough: for
@@ -109,8 +109,6 @@ class SparseCholesky {
   /// sides are multiplied by `scale` on the way in and divided by it on the way out.
   template <class Lanes, int Block>
   void solve_some(double* x, Workspace<typename Lanes::Scalar>& workspace, double scale = 1.0);
-  template <class Lanes>
-  void solve_block(double* x, Workspace<typename Lanes::Scalar>& workspace, double scale = 1.0);
 
   int block_ = 1;
   Index nodes_ = 0;

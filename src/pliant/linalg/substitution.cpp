@@ -11,11 +11,7 @@ template <class F>
 inline void for_tiles(int n, F f) {
   int i = 0;
   for (; i + 4 <= n; i += 4) f(i, std::integral_constant<int, 4>());
-  if (i + 2 <= n) {
-    f(i, std::integral_constant<int, 2>());
-    i += 2;
-  }
-  if (i < n) f(i, std::integral_constant<int, 1>());
+  for (; i < n; ++i) f(i, std::integral_constant<int, 1>());
 }
 
 /// sum[r] += sum over k < columns of L[r, k] y[k]; ld between the columns of L.
