@@ -56,7 +56,7 @@ void bench_sketch(const Reporter& reporter) {
   reporter.report(name + " region, skinning, first preview", choose, 100.0, "yardstick: 100 ms");
   int samples = 20;
   const double frame = median_ms(60, [&] {
-    samples = samples % (kSamples - 8) + 8;
+    samples = 20 + (samples - 12) % (kSamples - 20);
     if (!sketch->bend(target.leftCols(samples), true).ok()) std::abort();
     shown = sketch->positions();
   });
