@@ -138,6 +138,18 @@ void invert_diagonal(double* l, std::ptrdiff_t ld, int n) {
 
 }  // namespace
 
+double dot(const double* a, const double* b, std::ptrdiff_t n) {
+  Vec2 sum[4] = {};
+  std::ptrdiff_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    for (int k = 0; k < 4; ++k) sum[k] += load2(a + i + 2 * k) * load2(b + i + 2 * k);
+  }
+  const Vec2 pairs = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  double total = pairs[0] + pairs[1];
+  for (; i < n; ++i) total += a[i] * b[i];
+  return total;
+}
+
 bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, double* packed) {
   for (int k = 0; k < columns; k += kPanelBlock) {
     const int n = std::min(kPanelBlock, columns - k);

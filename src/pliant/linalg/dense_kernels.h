@@ -35,6 +35,9 @@ inline void add(const double* from, std::ptrdiff_t n, double* to) {
   if (i < n) to[i] += from[i];
 }
 
+/// Dot product of n numbers each, in eight sums: one alone would wait for each addition.
+double dot(const double* a, const double* b, std::ptrdiff_t n);
+
 /// Columns eliminated at a time by `factorize_panel`.
 inline constexpr int kPanelBlock = 16;
 

@@ -1,6 +1,7 @@
 #include "pliant/solve/lbfgs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pliant {
 
@@ -18,9 +19,12 @@ void Lbfgs::reset(Eigen::Index n) {
 }
 
 void Lbfgs::remember(const Eigen::VectorXd& s, const Eigen::VectorXd& y) {
-  const double curvature = s.dot(y);
+  const auto dot = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return dense::dot(a.data(), b.data(), a.size());
+  };
+  const double curvature = dot(s, y);
   // Pairs without clear positive curvature would make the metric indefinite.
-  if (!(curvature > 1e-12 * s.norm() * y.norm())) return;
+  if (!(curvature > 1e-12 * std::sqrt(dot(s, s)) * std::sqrt(dot(y, y)))) return;
   newest_ = (newest_ + 1) % capacity_;
   used_ = std::min(used_ + 1, capacity_);
   s_[newest_] = s;

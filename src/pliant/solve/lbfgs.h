@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "pliant/linalg/dense_kernels.h"
+
 namespace pliant {
 
 class Lbfgs {
@@ -28,13 +30,14 @@ class Lbfgs {
     d = -gradient;
     for (int i = 0; i < used_; ++i) {
       const int at = slot(i);
-      alpha_[at] = rho_[at] * s_[at].dot(d);
+      alpha_[at] = rho_[at] * dense::dot(s_[at].data(), d.data(), d.size());
       d -= alpha_[at] * y_[at];
     }
     apply_inverse_metric(d);
     for (int i = used_ - 1; i >= 0; --i) {
       const int at = slot(i);
-      d += (alpha_[at] - rho_[at] * y_[at].dot(d)) * s_[at];
+      const double beta = rho_[at] * dense::dot(y_[at].data(), d.data(), d.size());
+      d += (alpha_[at] - beta) * s_[at];
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pliant/core/disjoint_sets.h"
+#include "pliant/linalg/dense_kernels.h"
 
 namespace pliant {
 namespace {
@@ -142,7 +143,7 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
           d *= length;
         },
         direction_);
-    return 2.0 * gradient_.dot(direction_);
+    return 2.0 * dense::dot(gradient_.data(), direction_.data(), direction_.size());
   };
   double slope = find_direction();
   if (!(slope < 0.0) && !memory_.empty()) {
@@ -163,9 +164,10 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
       previous_ = gradient_ - previous_;
       memory_.remember(step_, previous_);
       energy_ = energy;
-      const double largest = step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff();
-      return {true, change <= tolerance * std::max(std::abs(energy), noise) &&
-                        largest <= tolerance * diagonal};
+      const bool settled =
+          change <= tolerance * std::max(std::abs(energy), noise) &&
+          step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff() <= tolerance * diagonal;
+      return {true, settled};
     }
     // Lowest point of the parabola through both energies and the slope, within limits.
     const double lowest = -0.5 * slope * alpha / (energy - energy_ - alpha * slope) * alpha;

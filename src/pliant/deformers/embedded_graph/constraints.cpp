@@ -219,7 +219,8 @@ double GraphConstraints::evaluate(const Vector& x) {
 
 GraphConstraints::Course GraphConstraints::along(const Vector& d) {
   apply_blocks(d, along_);
-  return {2.0 * d.dot(gradient_), d.dot(along_)};
+  return {2.0 * dense::dot(d.data(), gradient_.data(), d.size()),
+          dense::dot(d.data(), along_.data(), d.size())};
 }
 
 }  // namespace pliant::embedded

@@ -8,36 +8,72 @@
 namespace pliant::embedded {
 namespace {
 
-/// The six conditions of eq. 5 on R = I + U: c1.c2, c1.c3, c2.c3, and c_i.c_i - 1.
-using Conditions = std::array<double, 6>;
+using dense::Vec2;
+
+/// 3 x 3 matrices of two nodes side by side, [row][column]: the compiler for WASM does not find
+/// this by itself.
+using TwoMatrices = std::array<std::array<Vec2, 3>, 3>;
+
+/// The six conditions of eq. 5 on R = I + U, of two nodes: c1.c2, c1.c3, c2.c3, and c_i.c_i - 1.
+using Conditions = std::array<Vec2, 6>;
 constexpr int kPairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {0, 0}, {1, 1}, {2, 2}};
 
+/// Dot product of column a of m and column b of n.
+Vec2 columns(const TwoMatrices& m, int a, const TwoMatrices& n, int b) {
+  return m[0][a] * n[0][b] + m[1][a] * n[1][b] + m[2][a] * n[2][b];
+}
+
 /// In displacements, so that conditions near rest keep their digits.
-Conditions conditions(const Eigen::Matrix3d& u) {
+Conditions conditions(const TwoMatrices& u) {
   Conditions f;
   for (int q = 0; q < 6; ++q) {
     const auto [a, b] = kPairs[q];
-    f[q] = u(a, b) + u(b, a) + u.col(a).dot(u.col(b));
+    f[q] = u[a][b] + u[b][a] + columns(u, a, u, b);
   }
   return f;
 }
 
 /// Derivatives of the conditions at R along D.
-Conditions conditions_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
+Conditions conditions_along(const TwoMatrices& r, const TwoMatrices& d) {
   Conditions f;
   for (int q = 0; q < 6; ++q) {
     const auto [a, b] = kPairs[q];
-    f[q] = r.col(a).dot(d.col(b)) + r.col(b).dot(d.col(a));
+    f[q] = columns(r, a, d, b) + columns(r, b, d, a);
   }
   return f;
 }
 
 /// Their second-order part along D.
-Conditions conditions_across(const Eigen::Matrix3d& d) {
+Conditions conditions_across(const TwoMatrices& d) {
   Conditions f;
-  for (int q = 0; q < 6; ++q) f[q] = d.col(kPairs[q][0]).dot(d.col(kPairs[q][1]));
+  for (int q = 0; q < 6; ++q) f[q] = columns(d, kPairs[q][0], d, kPairs[q][1]);
   return f;
 }
+
+/// I + U.
+TwoMatrices affine_of(TwoMatrices u) {
+  for (int i = 0; i < 3; ++i) u[i][i] += 1.0;
+  return u;
+}
+
+/// The U of free nodes j and k.
+TwoMatrices gradients(const GraphEnergy& energy, const Vector& x, Index j, Index k) {
+  TwoMatrices u;
+  for (int a = 0; a < 3; ++a) {
+    const double *one = energy.entry(x, a, j), *two = energy.entry(x, a, k);
+    for (int c = 0; c < 3; ++c) u[a][c] = Vec2{one[c], two[c]};
+  }
+  return u;
+}
+
+/// Rot(R) of both (eq. 5).
+Vec2 rotation_terms_of(const TwoMatrices& u) {
+  Vec2 sum = {};
+  for (const Vec2& f : conditions(u)) sum += f * f;
+  return sum;
+}
+
+double dot(const Points& a, const Points& b) { return dense::dot(a.data(), b.data(), a.size()); }
 
 void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d& columns,
                double w = 1.0) {
@@ -132,21 +168,25 @@ void GraphEnergy::regularization_residuals(const Vector& x, Points& reg) const {
   }
 }
 
-double GraphEnergy::rotation_term(const Vector& x, Index j) const {
-  double sum = 0.0;
-  for (double f : conditions(displacement_gradient(x, j))) sum += f * f;
-  return sum;
+template <class F>
+void GraphEnergy::for_node_pairs(F f) const {
+  for (Index j = 0; j < free_nodes(); j += 2) {
+    const bool both = j + 1 < free_nodes();
+    f(j, both ? j + 1 : j, Vec2{1.0, both ? 1.0 : 0.0});
+  }
 }
 
 double GraphEnergy::rotation_terms(const Vector& x) const {
-  double sum = 0.0;
-  for (Index j = 0; j < free_nodes(); ++j) sum += rotation_term(x, j);
-  return sum;
+  Vec2 sum = {};
+  for_node_pairs([&](Index j, Index k, Vec2 counts) {
+    sum += counts * rotation_terms_of(gradients(*this, x, j, k));
+  });
+  return sum[0] + sum[1];
 }
 
 void GraphEnergy::evaluate(const Vector& x) {
   regularization_residuals(x, reg_);
-  terms_ = {rotation_terms(x), reg_.squaredNorm(), constraints_.evaluate(x)};
+  terms_ = {rotation_terms(x), dot(reg_, reg_), constraints_.evaluate(x)};
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
@@ -156,7 +196,7 @@ void GraphEnergy::advance(double alpha, const Vector& x) {
   if (!(constraint > 1e-4 * terms_.constraint)) return evaluate(x);
   reg_ += alpha * reg_along_;
   constraints_.advance(alpha);
-  terms_ = {rotation_terms(x), reg_.squaredNorm(), constraint};
+  terms_ = {rotation_terms(x), dot(reg_, reg_), constraint};
 }
 
 void GraphEnergy::retreat(double alpha, const Terms& terms) {
@@ -169,7 +209,8 @@ void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
                              std::vector<double>& regularization) const {
   rotation.assign(all_nodes_, 0.0);
   regularization.assign(all_nodes_, 0.0);
-  for (Index j = 0; j < free_nodes(); ++j) rotation[node_of_free_[j]] = rotation_term(x, j);
+  for (Index j = 0; j < free_nodes(); ++j)
+    rotation[node_of_free_[j]] = rotation_terms_of(gradients(*this, x, j, j))[0];
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto [j, k, d] = edges_[e];
     if (j >= 0) regularization[node_of_free_[j]] += reg_.col(2 * e).squaredNorm();
@@ -197,20 +238,24 @@ void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
       }
     }
   }
-  for (Index j = 0; j < free_nodes(); ++j) {
-    const Eigen::Matrix3d u = displacement_gradient(x, j);
-    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + u;
+  for_node_pairs([&](Index j, Index k, Vec2 counts) {
+    const TwoMatrices u = gradients(*this, x, j, k), r = affine_of(u);
     const Conditions f = conditions(u);
-    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();  // of half of Rot(R), by columns
+    TwoMatrices g = {};  // of half of Rot(R)
     for (int q = 0; q < 6; ++q) {
       const auto [a, b] = kPairs[q];
-      g.col(a) += f[q] * r.col(b);
-      g.col(b) += f[q] * r.col(a);
+      const Vec2 force = weights_.rotation * counts * f[q];
+      for (int row = 0; row < 3; ++row) {
+        g[row][a] += force * r[row][b];
+        g[row][b] += force * r[row][a];
+      }
     }
     for (int a = 0; a < 3; ++a) {
-      for (int c = 0; c < 3; ++c) entry(gradient, a, j)[c] += weights_.rotation * g(a, c);
+      double *one = entry(gradient, a, j), *two = entry(gradient, a, k);
+      for (int c = 0; c < 3; ++c) one[c] += g[a][c][0];
+      for (int c = 0; c < 3; ++c) two[c] += g[a][c][1];
     }
-  }
+  });
 }
 
 Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
@@ -219,21 +264,23 @@ Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
   Quartic course;
   auto& c = course.c;
   c[0] = total();
-  c[1] = 2.0 * weights_.regularization * reg_.cwiseProduct(reg_along_).sum() +
+  c[1] = 2.0 * weights_.regularization * dot(reg_, reg_along_) +
          weights_.constraint * con_along_.slope;
-  c[2] = weights_.regularization * reg_along_.squaredNorm() +
+  c[2] = weights_.regularization * dot(reg_along_, reg_along_) +
          weights_.constraint * con_along_.curvature;
-  for (Index j = 0; j < free_nodes(); ++j) {
-    const Eigen::Matrix3d u = displacement_gradient(x, j), step = displacement_gradient(d, j);
+  Vec2 sums[5] = {};
+  for_node_pairs([&](Index j, Index k, Vec2 counts) {
+    const TwoMatrices u = gradients(*this, x, j, k), step = gradients(*this, d, j, k);
     const Conditions f0 = conditions(u), f2 = conditions_across(step);
-    const Conditions f1 = conditions_along(Eigen::Matrix3d::Identity() + u, step);
+    const Conditions f1 = conditions_along(affine_of(u), step);
     for (int q = 0; q < 6; ++q) {
-      c[1] += weights_.rotation * 2.0 * f0[q] * f1[q];
-      c[2] += weights_.rotation * (f1[q] * f1[q] + 2.0 * f0[q] * f2[q]);
-      c[3] += weights_.rotation * 2.0 * f1[q] * f2[q];
-      c[4] += weights_.rotation * f2[q] * f2[q];
+      sums[1] += counts * 2.0 * f0[q] * f1[q];
+      sums[2] += counts * (f1[q] * f1[q] + 2.0 * f0[q] * f2[q]);
+      sums[3] += counts * 2.0 * f1[q] * f2[q];
+      sums[4] += counts * f2[q] * f2[q];
     }
-  }
+  });
+  for (int i = 1; i < 5; ++i) c[i] += weights_.rotation * (sums[i][0] + sums[i][1]);
   return course;
 }
 

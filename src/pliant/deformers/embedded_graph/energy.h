@@ -99,8 +99,11 @@ class GraphEnergy {
     Eigen::Vector3d d;  ///< g_k - g_j
   };
   void regularization_residuals(const Vector& x, Points& reg) const;
-  double rotation_term(const Vector& x, Index free_node) const;  ///< Rot(R_j), eq. 5
-  double rotation_terms(const Vector& x) const;                  ///< eq. 6
+  /// Calls f(j, k, counts) for the free nodes two by two; of an odd last one, which comes as both,
+  /// the second does not count.
+  template <class F>
+  void for_node_pairs(F f) const;
+  double rotation_terms(const Vector& x) const;  ///< eq. 6
 
   Weights weights_;
   std::vector<Index> node_of_free_, free_of_node_;

@@ -243,7 +243,7 @@ void GraphSolver::follow_metric() {
   memory_.clear();
   direction_ = -gradient_;
   metric_factor_.solve(direction_.data(), 3);
-  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * gradient_.dot(direction_));
+  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * slope());
   x_ += alpha * direction_;
   energy_.advance(alpha, x_);
 }
@@ -340,11 +340,11 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   const Terms terms_before = energy_.terms();
   const double before = energy_.total();
   if (Status s = find_direction(); !s.ok()) return s;
-  if (!(gradient_.dot(direction_) < 0.0) && !memory_.empty()) {
+  if (!(slope() < 0.0) && !memory_.empty()) {
     memory_.clear();
     if (Status s = find_direction(); !s.ok()) return s;
   }
-  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * gradient_.dot(direction_));
+  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * slope());
   previous_ = x_;
   step_ = alpha * direction_;
   x_ += step_;
@@ -362,10 +362,11 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   memory_.remember(step_, change_);
 
   // Eq. 12: change of the energy, gradient (twice our half) and step are all small.
-  const double f = energy_.total(), delta = step_.lpNorm<Eigen::Infinity>();
+  const double f = energy_.total();
+  const auto largest = [](const Vector& v) { return v.lpNorm<Eigen::Infinity>(); };
   const bool small = before - f < tolerance * (1.0 + f) &&
-                     2.0 * gradient_.lpNorm<Eigen::Infinity>() < std::cbrt(tolerance) * (1.0 + f) &&
-                     delta < std::sqrt(tolerance) * (1.0 + delta);
+                     2.0 * largest(gradient_) < std::cbrt(tolerance) * (1.0 + f) &&
+                     largest(step_) < std::sqrt(tolerance) * (1.0 + largest(step_));
   return Outcome{true, small && !tighten()};
 }
 

@@ -13,6 +13,7 @@
 #include "pliant/core/status.h"
 #include "pliant/deformers/embedded_graph/energy.h"
 #include "pliant/deformers/embedded_graph/pose.h"
+#include "pliant/linalg/dense_kernels.h"
 #include "pliant/linalg/sparse_cholesky.h"
 #include "pliant/solve/lbfgs.h"
 
@@ -76,6 +77,8 @@ class GraphSolver {
     return Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, free_node);
   }
   double barrier() const;
+  /// Half the energy's slope along direction_.
+  double slope() const { return dense::dot(gradient_.data(), direction_.data(), x_.size()); }
   void update_gradient();
   /// Step along direction_, given the energy's course and the slope with the barrier's part.
   double choose_step(const Quartic& course, double slope);
