@@ -156,6 +156,8 @@ TEST_CASE("a noisy stroke: smoothing takes the roughness, not the tip") {
   SketchOptions options;
   options.smooth = false;
   const auto sketch = test::sketch_on(rod(), reference(), options);
+  // What the stroke adds: a rod of triangles has a roughness of its own at rest, which smoothing a
+  // stroke cannot take away.
   const auto roughness = [&] {
     const Quality q = measure_quality(sketch->shape(), test::point_positions(*sketch), false);
     return std::sqrt(q.roughness * q.roughness - q.roughness_rest * q.roughness_rest);

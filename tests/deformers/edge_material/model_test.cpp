@@ -1,13 +1,12 @@
 #include "pliant/deformers/edge_material/model.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include "support/dense.h"
 #include "support/derivatives.h"
+#include "support/local_models.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -150,12 +149,5 @@ TEST_CASE("edge material: the matrix is the second derivative with normals and d
   const auto shape = test::shape_of(test::potato(1));
   EdgeMaterialModel model(*shape);
   model.set_weights({.lambda = 0.7, .mu = 1.3});
-  const Index n = static_cast<Index>(shape->points().cols());
-  const BlockMatrix sparse = model.matrix();
-  const Eigen::MatrixXd matrix = test::dense(sparse);
-  CHECK(std::is_sorted(sparse.edges.begin(), sparse.edges.end()));
-  const Points x = shaken(shape->points(), 1.0);
-  Points half_gradient;
-  model.turned_gradient(x, Rotations::Zero(9, n), x, half_gradient);
-  CHECK((half_gradient - x * matrix).norm() < 1e-12 * half_gradient.norm());
+  test::check_matrix_is_second_derivative(model, shaken(shape->points(), 1.0), 1e-12);
 }
