@@ -36,11 +36,6 @@ export class History<T> {
     this.at = this.entries.length - 1;
   }
 
-  /** Replaces the current value: the same moment, known better. */
-  amend(value: T): void {
-    this.entries[this.at]!.value = value;
-  }
-
   undo(): T {
     if (this.canUndo) this.at--;
     return this.current;
