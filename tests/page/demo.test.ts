@@ -82,6 +82,18 @@ test("undo also takes back the choice of a shape and of an option", async () => 
   expect(await page.locator('input[value="creature"]').isChecked()).toBe(true);
 });
 
+test("options changed while the last ones are still being built all count", async () => {
+  const { page } = await open();
+  await demo.choose("plane");
+  await page.locator("#option-nodeCount").focus();
+  for (let i = 0; i < 4; i++) await page.keyboard.press("ArrowLeft");
+  await page.locator("#option-neighbours").focus();
+  await demo.press("ArrowRight", "ArrowRight");
+  expect(await page.locator("#option-nodeCount").inputValue()).toBe("210");
+  expect(await page.locator("#option-neighbours").inputValue()).toBe("6");
+  expect(await ask((hook) => hook.script())).toMatchObject({ steps: [{ options: { nodeCount: 210, neighbours: 6 } }] });
+});
+
 test("the brush fixes and frees what it passes over", async () => {
   const { page } = await open();
   const before = await ask((hook) => hook.fixed());

@@ -35,18 +35,22 @@ export class Session {
 
   /** Shows another shape, in its starting pose, with the method as it is unless the shape has one of its own. */
   open(shape: ShapeData): Promise<boolean> {
-    return this.replace(startingDoc(shape, this.present.doc));
+    return this.replace((doc) => startingDoc(shape, doc));
   }
 
   setMethod(id: string): Promise<boolean> {
-    return this.replace({ ...this.present.doc, method: id, options: defaultOptions(methodOf(id)) });
+    return this.replace((doc) => ({ ...doc, method: id, options: defaultOptions(methodOf(id)) }));
   }
 
+  /** An option of the present method. */
   setOption(key: string, value: OptionValue): Promise<boolean> {
-    const { doc } = this.present;
-    const options: Options = { ...doc.options, [key]: value };
-    if (!methodOf(doc.method).live || doc.sketch) return this.replace({ ...doc, options }, `option ${key}`);
-    this.present.setOptions(options);
+    const { method, options, sketch } = this.present.doc;
+    const changed = (before: Options): Options => ({ ...before, [key]: value });
+    if (!methodOf(method).live || sketch) {
+      // On what the calls before this one leave, which may be another method.
+      return this.replace((doc) => (doc.method === method ? { ...doc, options: changed(doc.options) } : doc), `option ${key}`);
+    }
+    this.present.setOptions(changed(options));
     return this.exclusive(() => this.commit(this.present.doc, `option ${key}`));
   }
 
@@ -56,15 +60,18 @@ export class Session {
   }
 
   /** Another shape, method or option: a new deformer solves from rest. */
-  private replace(doc: Doc, label = ""): Promise<boolean> {
-    return this.move({ ...doc, grab: freshGrab(doc.handles, doc.options) }, label);
+  private replace(change: (doc: Doc) => Doc, label = ""): Promise<boolean> {
+    return this.move(async () => {
+      const doc = change(this.present.doc);
+      return { ...doc, grab: freshGrab(doc.handles, doc.options) };
+    }, label);
   }
 
   /** Makes a document the present, with what it takes to show it; if that fails the old one stays. */
-  private move(next: Doc | (() => Promise<Doc>), label = ""): Promise<boolean> {
+  private move(next: () => Promise<Doc>, label = ""): Promise<boolean> {
     return this.exclusive(async () => {
       const before = this.history.current;
-      const moment: Moment = { doc: typeof next === "function" ? await next() : next, deformation: undefined };
+      const moment: Moment = { doc: await next(), deformation: undefined };
       try {
         await this.present.enter(moment);
       } catch (error) {

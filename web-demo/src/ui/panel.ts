@@ -1,7 +1,7 @@
 // The settings beside the view: shape, method and its options, what is shown, export.
 import type { Session } from "../edit/session.ts";
 import { download, type ExportKind } from "../files/export.ts";
-import { isPainting, methodOf, methods, type MethodOption, type Options, type Strokes } from "../methods.ts";
+import { isPainting, methodOf, methods, type MethodOption, type Options, type OptionValue, type Strokes } from "../methods.ts";
 import { catalog } from "../shapes/catalog.ts";
 import { byId, make } from "./dom.ts";
 
@@ -22,11 +22,13 @@ export class Panel {
   private readonly clear = make("button", { class: "small", id: "clear-strokes" }, "Clear strokes");
   private shownMethod = "";
   private shown: readonly unknown[] = [];
+  /** Options asked for that the document does not have yet. */
+  private underWay = 0;
 
   constructor(private readonly session: Session, private readonly actions: PanelActions) {
     for (const { id, name } of catalog) this.addShape(id, name);
     for (const { id, label, help } of methods) this.choice.append(make("option", { value: id, title: help }, label));
-    this.clear.addEventListener("click", () => void session.setOption("strokes", []));
+    this.clear.addEventListener("click", () => this.ask("strokes", []));
     this.choice.addEventListener("change", () => void session.setMethod(this.choice.value));
     const file = byId<HTMLInputElement>("file");
     file.addEventListener("change", () => {
@@ -70,6 +72,8 @@ export class Panel {
     const { doc } = this.session.present;
     const shown = [doc.shape, doc.method, doc.options];
     if (!force && shown.every((part, i) => part === this.shown[i])) return;
+    // While the document is behind the controls the next press of a key goes on from what they say.
+    if (this.underWay > 0 && doc.method === this.shownMethod) return;
     this.shown = shown;
     const known = catalog.some((entry) => entry.id === doc.shape.id);
     for (const radio of this.shapes.querySelectorAll("input")) {
@@ -81,6 +85,15 @@ export class Panel {
     byId("graph").parentElement!.hidden = doc.method !== "embedded-graph";
     for (const control of this.controls) control(doc.options);
     this.clear.hidden = !isPainting(doc.method, doc.options) || (doc.options["strokes"] as Strokes).length === 0;
+  }
+
+  /** Carries out what a control says. */
+  private ask(key: string, value: OptionValue): void {
+    this.underWay++;
+    void this.session.setOption(key, value).then((well) => {
+      this.underWay--;
+      this.refresh(!well);
+    });
   }
 
   private makeOptions(method: string): void {
@@ -97,7 +110,7 @@ export class Panel {
     const placeOf = (value: number) => (!log ? value : value <= 0 ? low : Math.log10(value));
     const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${low}`, max: `${high}`, step: `${step}` });
     const output = make("output", { for: input.id });
-    const set = () => void this.session.setOption(key, valueAt(Number(input.value)));
+    const set = () => this.ask(key, valueAt(Number(input.value)));
     input.addEventListener("input", () => {
       output.value = String(valueAt(Number(input.value)));
       if (live) set();
@@ -112,14 +125,14 @@ export class Panel {
 
   private select({ key, label, help, choices }: Extract<MethodOption, { choices: unknown }>): HTMLElement {
     const select = make("select", { id: `option-${key}`, name: key }, ...choices.map(([value, text]) => make("option", { value }, text)));
-    select.addEventListener("change", () => void this.session.setOption(key, select.value));
+    select.addEventListener("change", () => this.ask(key, select.value));
     this.controls.push((options) => (select.value = options[key] as string));
     return make("label", { class: "option wide", title: help, for: select.id }, label, select);
   }
 
   private toggle({ key, label, help }: MethodOption): HTMLElement {
     const input = make("input", { type: "checkbox", id: `option-${key}`, name: key });
-    input.addEventListener("change", () => void this.session.setOption(key, input.checked));
+    input.addEventListener("change", () => this.ask(key, input.checked));
     this.controls.push((options) => (input.checked = options[key] as boolean));
     return make("label", { class: "check", title: help }, input, label);
   }
