@@ -64,7 +64,7 @@ class SparseCholesky {
     std::vector<Index> children;  ///< ascending: those with rows below their columns
     std::vector<Index> rows;      ///< permuted node ids, ascending
     std::vector<Run> runs;        ///< where the rows lie in the parent's front
-    std::size_t factor = 0;       ///< offset of its panel in factor_
+    std::size_t factor = 0;       ///< offset of its panel in a factor
     int side = 0;                 ///< which of stacks_ takes its update matrix: not its parent's
     Index height() const { return width + static_cast<Index>(rows.size()); }
   };
@@ -101,6 +101,7 @@ class SparseCholesky {
   /// What solving works on, in the precision of its lanes.
   template <class Scalar>
   struct Workspace {
+    /// Plain memory, as stacks_: zeros would take as long as a tenth of a factorisation.
     std::unique_ptr<Scalar[]> factor;
     std::vector<Scalar> gathered;  ///< right-hand sides in elimination order, as Lanes has them
     std::vector<Scalar> below;     ///< rows below the columns of a panel
@@ -118,7 +119,6 @@ class SparseCholesky {
   std::vector<Panel> panels_;
   std::vector<Index> below_;
   std::vector<std::vector<Entry>> entries_;
-  // Plain memory: filling it with zeros first would take as long as a tenth of a factorisation.
   Workspace<double> exact_;
   Workspace<float> rough_;  ///< its factor is null where `solve_roughly` solves exactly
   std::array<std::unique_ptr<double[]>, 2> stacks_;

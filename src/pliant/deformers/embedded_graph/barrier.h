@@ -4,6 +4,10 @@
 // that wherever no node is about to collapse the paper's energy is all there is.
 #pragma once
 
+#include <array>
+
+#include <Eigen/Core>
+
 namespace pliant::embedded::barrier {
 
 inline constexpr double kSafeDeterminant = 0.1;
@@ -15,5 +19,18 @@ double value(double determinant);
 double slope(double determinant);
 /// Second derivative; never negative.
 double curvature(double determinant);
+
+/// det(R + alpha D), a cubic in alpha.
+class DeterminantAlong {
+ public:
+  DeterminantAlong(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d);
+  double at_start() const { return c_[0]; }
+  double at(double alpha) const {
+    return c_[0] + alpha * (c_[1] + alpha * (c_[2] + alpha * c_[3]));
+  }
+
+ private:
+  std::array<double, 4> c_;
+};
 
 }  // namespace pliant::embedded::barrier

@@ -136,21 +136,17 @@ void GraphConstraints::add_common(const std::vector<Index>& points, const Eigen:
   }
 }
 
-Eigen::Vector3d GraphConstraints::residual(const Vector& x, Index l) const {
+Points GraphConstraints::residuals(const Vector& x) const {
   // Eq. 2 in displacements: sum of w_j (U_j (v - g_j) + t_j).
-  Eigen::Vector3d r = -targets_.col(l);
-  for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
-    for (int a = 0; a < 3; ++a) {
-      r[a] += influences_[i].coefficients.dot(
-          Eigen::Map<const Eigen::Vector4d>(x.data() + a * rows() + 4 * influences_[i].node));
+  Points result = -targets_;
+  for (Index l = 0; l < result.cols(); ++l) {
+    for (std::size_t i = start_[l]; i < start_[l + 1]; ++i) {
+      for (int a = 0; a < 3; ++a) {
+        result(a, l) += influences_[i].coefficients.dot(
+            Eigen::Map<const Eigen::Vector4d>(x.data() + a * rows() + 4 * influences_[i].node));
+      }
     }
   }
-  return r;
-}
-
-Points GraphConstraints::residuals(const Vector& x) const {
-  Points result(3, targets_.cols());
-  for (Index l = 0; l < result.cols(); ++l) result.col(l) = residual(x, l);
   return result;
 }
 

@@ -59,7 +59,6 @@ class GraphConstraints {
   };
 
   Index rows() const { return 4 * free_nodes_; }
-  Eigen::Vector3d residual(const Vector& x, Index l) const;
   void gather_blocks(const Points& points, const Points& free_positions,
                      const std::vector<Edge>& edges);
   void apply_blocks(const Vector& d, Vector& product) const;

@@ -28,19 +28,6 @@ constexpr double kSmallTurn = 0.2;
 /// So many points of a handle, evenly picked, tell its turn well enough for a prediction.
 constexpr std::size_t kEnoughForTurn = 250;
 
-/// det(R + alpha D) = c0 + c1 alpha + c2 alpha^2 + c3 alpha^3.
-std::array<double, 4> determinant_along(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d) {
-  auto mixed = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-    return a.col(0).dot(b.col(1).cross(b.col(2))) + b.col(0).dot(a.col(1).cross(b.col(2))) +
-           b.col(0).dot(b.col(1).cross(a.col(2)));
-  };
-  return {r.determinant(), mixed(d, r), mixed(r, d), d.determinant()};
-}
-
-double value_at(const std::array<double, 4>& cubic, double alpha) {
-  return cubic[0] + alpha * (cubic[1] + alpha * (cubic[2] + alpha * cubic[3]));
-}
-
 }  // namespace
 
 Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
@@ -171,12 +158,10 @@ void GraphSolver::predict_rigid() {
     return;
   previous_ = x_;
   const double before = energy_.total();
-  bool moved = false;
   for (Index c = 0; c < components_.count; ++c) {
     const std::vector<Index>& members = floating[c];
     if (members.empty()) continue;
     const RigidMotion motion = motion_of(members, members.size());
-    moved = true;
     for (Index j = 0; j < energy_.free_nodes(); ++j) {
       if (components_.of[j] != c) continue;
       const Eigen::Vector3d at = nodes_.col(j) + energy_.translation(x_, j);
@@ -185,7 +170,6 @@ void GraphSolver::predict_rigid() {
       for (int a = 0; a < 3; ++a) energy_.entry(x_, a, j)[3] = shift[a];
     }
   }
-  if (!moved) return;
   energy_.evaluate(x_);
   keep_if_lower(before);
 }
@@ -309,14 +293,14 @@ double GraphSolver::choose_step(const Quartic& course, double slope) {
   double barrier_before = 0.0;
   near_barrier_.clear();
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
-    const auto along =
-        determinant_along(affine_part(j), energy_.displacement_gradient(direction_, j));
-    while (alpha > 0.0 && value_at(along, alpha) < 0.2 * std::min(1.0, along[0])) alpha *= 0.7;
-    if (along[0] >= barrier::kSafeDeterminant &&
-        value_at(along, alpha) >= barrier::kSafeDeterminant)
+    const barrier::DeterminantAlong along(affine_part(j),
+                                          energy_.displacement_gradient(direction_, j));
+    while (alpha > 0.0 && along.at(alpha) < 0.2 * std::min(1.0, along.at_start())) alpha *= 0.7;
+    if (along.at_start() >= barrier::kSafeDeterminant &&
+        along.at(alpha) >= barrier::kSafeDeterminant)
       continue;
     near_barrier_.push_back(along);
-    barrier_before += options_.weights.rotation * barrier::value(along[0]);
+    barrier_before += options_.weights.rotation * barrier::value(along.at_start());
   }
   // Away from the barrier the first minimum of the quartic is the exact line search. Near it the
   // sum of both must fall, and the energy must not rise.
@@ -324,7 +308,7 @@ double GraphSolver::choose_step(const Quartic& course, double slope) {
   for (int halvings = 0; halvings < 40; ++halvings, alpha *= 0.5) {
     double barrier_after = 0.0;
     for (const auto& along : near_barrier_) {
-      barrier_after += options_.weights.rotation * barrier::value(value_at(along, alpha));
+      barrier_after += options_.weights.rotation * barrier::value(along.at(alpha));
     }
     const double energy_after = course.value(alpha);
     if (energy_after < course.c[0] &&

@@ -6,11 +6,11 @@
 // take the exact minimum along their direction, and both keep det R > 0 at every node.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "pliant/core/disjoint_sets.h"
 #include "pliant/core/status.h"
+#include "pliant/deformers/embedded_graph/barrier.h"
 #include "pliant/deformers/embedded_graph/energy.h"
 #include "pliant/deformers/embedded_graph/pose.h"
 #include "pliant/linalg/dense_kernels.h"
@@ -103,7 +103,7 @@ class GraphSolver {
   BlockMatrix constant_, newton_;
   SparseCholesky metric_factor_, newton_factor_;
   Lbfgs memory_;
-  std::vector<std::array<double, 4>> near_barrier_;  ///< determinants along the step
+  std::vector<barrier::DeterminantAlong> near_barrier_;  ///< determinants along the step
   int factorizations_ = 0;
   int analyses_ = 0;
 };
