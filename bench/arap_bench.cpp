@@ -73,10 +73,8 @@ void bench_energy(const Reporter& reporter, ArapEnergy energy, const std::string
   } while (reached > enough && iterations < 1000);
 
   const Plain plain = plain_loop(*deformer, energy, enough);
-  reporter.report(name + " plain loop to 1e-4", plain.to_enough, 0.0,
-                  std::to_string(plain.iterations) + " iterations");
-  reporter.report(name + " cold to 1e-4", elapsed, plain.to_enough,
-                  std::to_string(iterations) + " iterations");
+  reporter.report(name + " plain loop to 1e-4", plain.to_enough, 0.0, std::to_string(plain.iterations) + " iterations");
+  reporter.report(name + " cold to 1e-4", elapsed, plain.to_enough, std::to_string(iterations) + " iterations");
   reporter.report(name + " step", elapsed / iterations, plain.step);
 }
 

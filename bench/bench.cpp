@@ -27,13 +27,11 @@ double median_ms(int runs, const std::function<void()>& call) {
 }
 
 bool Reporter::wants(const std::string& name) const {
-  return words_.empty() || std::any_of(words_.begin(), words_.end(), [&](const std::string& word) {
-           return name.find(word) != std::string::npos;
-         });
+  return words_.empty() || std::any_of(words_.begin(), words_.end(),
+                                       [&](const std::string& word) { return name.find(word) != std::string::npos; });
 }
 
-void Reporter::report(const std::string& name, double ms, double yardstick,
-                      const std::string& note) const {
+void Reporter::report(const std::string& name, double ms, double yardstick, const std::string& note) const {
   std::printf("{\"name\":\"%s\",\"ms\":%.6g", name.c_str(), ms);
   if (yardstick > 0.0) std::printf(",\"yardstick\":%.6g,\"ratio\":%.6g", yardstick, ms / yardstick);
   if (!note.empty()) std::printf(",\"note\":\"%s\"", note.c_str());

@@ -21,8 +21,7 @@ class Reporter {
   explicit Reporter(std::vector<std::string> words) : words_(std::move(words)) {}
   bool wants(const std::string& name) const;
   /// {"name", "ms"}, and with a yardstick (ms, above 0) also {"yardstick", "ratio"}.
-  void report(const std::string& name, double ms, double yardstick = 0.0,
-              const std::string& note = "") const;
+  void report(const std::string& name, double ms, double yardstick = 0.0, const std::string& note = "") const;
 
  private:
   std::vector<std::string> words_;

@@ -17,8 +17,7 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Deformation =
-    CGAL::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, CGAL::SPOKES_AND_RIMS>;
+using Deformation = CGAL::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, CGAL::SPOKES_AND_RIMS>;
 
 /// CGAL gives up settling after this many iterations.
 constexpr int kPatience = 600;
@@ -33,8 +32,7 @@ Mesh cgal_mesh(const test::Mesh& from) {
     vertices.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
   }
   for (std::size_t t = 0; t < from.triangles.size(); t += 3) {
-    mesh.add_face(vertices[from.triangles[t]], vertices[from.triangles[t + 1]],
-                  vertices[from.triangles[t + 2]]);
+    mesh.add_face(vertices[from.triangles[t]], vertices[from.triangles[t + 1]], vertices[from.triangles[t + 2]]);
   }
   return mesh;
 }
@@ -51,8 +49,7 @@ Points points_of(const Mesh& mesh) {
 /// Their side of the comparison: the same grab, the same drag, one iteration at a time.
 class Theirs {
  public:
-  explicit Theirs(const SurfaceScene& scene)
-      : mesh_(cgal_mesh(scene.mesh)), deformation_(mesh_), scene_(scene) {
+  explicit Theirs(const SurfaceScene& scene) : mesh_(cgal_mesh(scene.mesh)), deformation_(mesh_), scene_(scene) {
     for (const auto v : mesh_.vertices()) deformation_.insert_roi_vertex(v);
     for (const auto* list : {&scene.fixed, &scene.moved}) {
       for (Index v : *list) deformation_.insert_control_vertex(Mesh::Vertex_index(v));
@@ -91,8 +88,7 @@ double timed(const std::function<void()>& call) {
 void bench_cgal(const Reporter& reporter) {
   if (!reporter.wants("arap against CGAL")) return;
   const SurfaceScene scene(test::torus(170, 64));
-  const auto ours =
-      std::move(Arap::create(scene.shape, {.energy = ArapEnergy::spokes_and_rims}).value());
+  const auto ours = std::move(Arap::create(scene.shape, {.energy = ArapEnergy::spokes_and_rims}).value());
   Theirs theirs(scene);
   scene.grab(*ours);
   const double our_factor = timed([&] {
@@ -122,9 +118,8 @@ void bench_cgal(const Reporter& reporter) {
   reporter.report("arap against CGAL: analyse and factorise", our_factor, their_factor);
   reporter.report("arap against CGAL: step", median(our_steps), median(their_steps));
   reporter.report("arap against CGAL: settled to 1e-4", our_settled, their_settled,
-                  iterations < kPatience
-                      ? "CGAL: " + std::to_string(iterations) + " iterations"
-                      : "CGAL not there after " + std::to_string(kPatience) + " iterations");
+                  iterations < kPatience ? "CGAL: " + std::to_string(iterations) + " iterations"
+                                         : "CGAL not there after " + std::to_string(kPatience) + " iterations");
 }
 
 }  // namespace pliant::bench

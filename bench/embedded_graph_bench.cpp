@@ -60,8 +60,7 @@ Eigen::SparseMatrix<double> yardstick_matrix(Index nodes) {
   for (Index i = 0; i < nodes * kBlock; ++i) entries.emplace_back(i, i, 200.0);
   for (const auto& [j, k] : edges) {
     for (int r = 0; r < kBlock; ++r) {
-      for (int c = 0; c < kBlock; ++c)
-        entries.emplace_back(k * kBlock + r, j * kBlock + c, number());
+      for (int c = 0; c < kBlock; ++c) entries.emplace_back(k * kBlock + r, j * kBlock + c, number());
     }
   }
   Eigen::SparseMatrix<double> matrix(nodes * kBlock, nodes * kBlock);
@@ -94,16 +93,14 @@ class Yardstick {
 /// One grab: a torus of 85,792 vertices, one side fixed, the other turned by 60 degrees and moved.
 class Scene {
  public:
-  explicit Scene(EmbeddedGraphOptions options)
-      : mesh_(test::torus(383, 224)), options_(std::move(options)) {
+  explicit Scene(EmbeddedGraphOptions options) : mesh_(test::torus(383, 224)), options_(std::move(options)) {
     shape_ = *Shape::create(mesh_.positions, mesh_.triangles);
   }
 
   std::unique_ptr<EmbeddedGraph> grabbed(std::vector<Index> moved = {}) const {
     auto deformer = std::move(EmbeddedGraph::create(shape_, options_).value());
     if (moved.empty()) moved = pick(mesh_, 1.1, 9.0);
-    if (!deformer->set_fixed(pick(mesh_, -9.0, -1.1)).ok() || !deformer->add_handle(moved).ok())
-      std::abort();
+    if (!deformer->set_fixed(pick(mesh_, -9.0, -1.1)).ok() || !deformer->add_handle(moved).ok()) std::abort();
     return deformer;
   }
   static void drag(EmbeddedGraph& deformer, double part) {
@@ -131,8 +128,7 @@ double step_ms(EmbeddedGraph& deformer) {
 
 /// From the first step after a grab (analysis and factorisation included) to within 1e-4 of the
 /// converged energy.
-double cold_ms(const Scene& scene, const std::vector<Index>& moved, Yardstick& yardstick,
-               int& iterations) {
+double cold_ms(const Scene& scene, const std::vector<Index>& moved, Yardstick& yardstick, int& iterations) {
   const auto reference = scene.grabbed(moved);
   Scene::drag(*reference, 1.0);
   if (!run(*reference, {500, 1e-13}).ok()) std::abort();
@@ -198,8 +194,8 @@ void bench_constraints(const Reporter& reporter) {
                              (solver == EmbeddedGraphSolver::automatic ? "auto" : "Gauss-Newton");
     const double few = warm_ms(scene, every(candidates, 13));
     for (int count : {670, 1900, 5000}) {
-      reporter.report(name + " " + std::to_string(count) + " against 13",
-                      warm_ms(scene, every(candidates, count)), few);
+      reporter.report(name + " " + std::to_string(count) + " against 13", warm_ms(scene, every(candidates, count)),
+                      few);
     }
   }
 }
@@ -223,15 +219,14 @@ void bench_frozen(const Reporter& reporter) {
     const auto [few, few_nodes] = timed(0.75);
     reporter.report(std::string("embedded-graph frozen ") +
                         (solver == EmbeddedGraphSolver::automatic ? "auto " : "Gauss-Newton ") +
-                        std::to_string(few_nodes) + " of 840 nodes against " +
-                        std::to_string(all_nodes),
+                        std::to_string(few_nodes) + " of 840 nodes against " + std::to_string(all_nodes),
                     few, all);
   }
 }
 
 /// Eq. 2 as anyone would write it.
-void plain_carry(const std::vector<double>& maps, const Influences& influences,
-                 const Points& points, std::vector<double>& out) {
+void plain_carry(const std::vector<double>& maps, const Influences& influences, const Points& points,
+                 std::vector<double>& out) {
   for (Index i = 0; i < points.cols(); ++i) {
     double x = 0, y = 0, z = 0;
     const double px = points(0, i), py = points(1, i), pz = points(2, i);
@@ -252,8 +247,7 @@ void bench_carrying(const Reporter& reporter) {
   if (!reporter.wants("embedded-graph carry")) return;
   const Scene scene({.node_count = 226});
   const EmbeddedGraphOptions options{.node_count = 226};
-  const DeformationGraph graph =
-      build_graph(scene.shape(), *place_nodes(scene.shape(), options), options);
+  const DeformationGraph graph = build_graph(scene.shape(), *place_nodes(scene.shape(), options), options);
   std::mt19937 random(5);
   std::vector<double> plain_maps(12 * 226);
   for (double& v : plain_maps) v = static_cast<double>(random()) / 4294967296.0;
@@ -279,10 +273,9 @@ void bench_carrying(const Reporter& reporter) {
   const auto deformer = scene.grabbed();
   Scene::drag(*deformer, 1.0);
   if (!run(*deformer).ok()) std::abort();
-  reporter.report("embedded-graph positions of 85,792 vertices",
-                  median_ms(15, [&] { out = deformer->positions(); }), yard);
-  reporter.report("embedded-graph normals of 85,792 vertices",
-                  median_ms(15, [&] { out = deformer->normals(); }), yard);
+  reporter.report("embedded-graph positions of 85,792 vertices", median_ms(15, [&] { out = deformer->positions(); }),
+                  yard);
+  reporter.report("embedded-graph normals of 85,792 vertices", median_ms(15, [&] { out = deformer->normals(); }), yard);
 }
 
 void bench_building(const Reporter& reporter) {

@@ -22,8 +22,7 @@ struct SurfaceScene {
     shape = *Shape::create(mesh.positions, mesh.triangles);
     std::vector<Index> order(mesh.vertices());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-              [&](Index a, Index b) { return mesh.vertex(a).x() < mesh.vertex(b).x(); });
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return mesh.vertex(a).x() < mesh.vertex(b).x(); });
     const std::size_t part = order.size() * 3 / 100;
     fixed.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(part));
     moved.assign(order.end() - static_cast<std::ptrdiff_t>(part), order.end());

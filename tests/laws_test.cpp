@@ -45,10 +45,9 @@ struct Scene {
 TEST_CASE("law 1: with targets at rest the shape stays at rest and the energy is zero") {
   for (const auto& method : test::methods()) {
     CAPTURE(method.name);
-    for (const auto& mesh :
-         {test::potato(3), test::tube(24, 20), test::soup(test::torus(20, 10)),
-          test::both(test::potato(2), test::transformed(test::potato(2), 1.0,
-                                                        Eigen::Matrix3d::Identity(), {4, 0, 0}))}) {
+    for (const auto& mesh : {test::potato(3), test::tube(24, 20), test::soup(test::torus(20, 10)),
+                             test::both(test::potato(2), test::transformed(test::potato(2), 1.0,
+                                                                           Eigen::Matrix3d::Identity(), {4, 0, 0}))}) {
       const auto shape = test::shape_of(mesh);
       const auto deformer = method.make(shape);
       const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
@@ -56,8 +55,7 @@ TEST_CASE("law 1: with targets at rest the shape stays at rest and the energy is
       const StepReport report = test::settle(*deformer);
       CHECK(report.converged);
       CHECK(deformer->energy().total == doctest::Approx(0.0));
-      CHECK(distance(deformer->positions(), shape->scatter(shape->points())) <
-            1e-9 * shape->diagonal());
+      CHECK(distance(deformer->positions(), shape->scatter(shape->points())) < 1e-9 * shape->diagonal());
     }
   }
 }
@@ -72,9 +70,8 @@ TEST_CASE("law 2: every point follows a rigid motion of the targets") {
         const auto deformer = method.make(test::shape_of(s.mesh));
         const Motion motion = test::turn(degrees, {1, 2, -1}, {3, 0, 1}, {0.5, -2, 1});
         // One region, or four single vertices that do not lie in a plane.
-        const std::vector<Index> all =
-            single ? std::vector<Index>{1, 100, 200, 300}
-                   : test::pick(s.mesh, [](const auto& p) { return p.x() > 0.3; });
+        const std::vector<Index> all = single ? std::vector<Index>{1, 100, 200, 300}
+                                              : test::pick(s.mesh, [](const auto& p) { return p.x() > 0.3; });
         for (std::size_t i = 0; i < (single ? all.size() : 1); ++i) {
           const auto handle = deformer->add_handle(single ? std::vector<Index>{all[i]} : all);
           REQUIRE(handle.ok());
@@ -99,10 +96,7 @@ TEST_CASE("law 3: an accepted step never raises the energy") {
         const auto deformer = method.make(test::shape_of(mesh));
         const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
         for (double part : {0.5, 1.0}) {  // a second drag starts from the first one's result
-          REQUIRE(
-              deformer
-                  ->move_handle(handle, test::turn(part * degrees, axis, {0, 0, 1}, {0.2, 0, 0.1}))
-                  .ok());
+          REQUIRE(deformer->move_handle(handle, test::turn(part * degrees, axis, {0, 0, 1}, {0.2, 0, 0.1})).ok());
           double energy = deformer->energy().total;
           for (int i = 0; i < 60; ++i) {
             const auto report = deformer->step(1e-9);
@@ -121,14 +115,12 @@ TEST_CASE("law 3: an accepted step never raises the energy") {
 TEST_CASE("law 4: reset restores the rest positions bit for bit") {
   for (const auto& method : test::methods()) {
     CAPTURE(method.name);
-    const auto mesh =
-        test::transformed(test::potato(2), 3.7, Eigen::Matrix3d::Identity(), {1e3, -20, 0.1});
+    const auto mesh = test::transformed(test::potato(2), 3.7, Eigen::Matrix3d::Identity(), {1e3, -20, 0.1});
     const auto shape = test::shape_of(mesh);
     const auto deformer = method.make(shape);
     const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
     const Points rest = shape->scatter(shape->points());
-    REQUIRE(
-        deformer->move_handle(handle, test::turn(40, {0, 1, 0}, {1e3, -20, 0}, {1, 0, 0})).ok());
+    REQUIRE(deformer->move_handle(handle, test::turn(40, {0, 1, 0}, {1e3, -20, 0}, {1, 0, 0})).ok());
     test::settle(*deformer);
     const Points bent = deformer->positions();
     CHECK(distance(bent, rest) > 0.01 * shape->diagonal());
@@ -136,23 +128,20 @@ TEST_CASE("law 4: reset restores the rest positions bit for bit") {
     CHECK(deformer->positions() == rest);
     CHECK(deformer->energy().total == 0.0);
     // The same edit after a reset gives the same result.
-    REQUIRE(
-        deformer->move_handle(handle, test::turn(40, {0, 1, 0}, {1e3, -20, 0}, {1, 0, 0})).ok());
+    REQUIRE(deformer->move_handle(handle, test::turn(40, {0, 1, 0}, {1e3, -20, 0}, {1, 0, 0})).ok());
     test::settle(*deformer);
     CHECK(deformer->positions() == bent);
   }
 }
 
-TEST_CASE(
-    "law 5: scaling, moving, turning the scene and renumbering its vertices change nothing else") {
+TEST_CASE("law 5: scaling, moving, turning the scene and renumbering its vertices change nothing else") {
   const Scene s;
   for (const auto& method : test::methods()) {
     CAPTURE(method.name);
     const Points reference = edited(method, s.mesh, s.fixed, s.moved);
-    auto check = [&](double scale, const Eigen::Matrix3d& rotation,
-                     const Eigen::Vector3d& translation, double within) {
-      Points moved = edited(method, test::transformed(s.mesh, scale, rotation, translation),
-                            s.fixed, s.moved, scale, rotation, translation);
+    auto check = [&](double scale, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation, double within) {
+      Points moved = edited(method, test::transformed(s.mesh, scale, rotation, translation), s.fixed, s.moved, scale,
+                            rotation, translation);
       moved = rotation.transpose() * (moved.colwise() - translation) / scale;
       CHECK(distance(moved, reference) < within * s.diagonal);
     };
@@ -171,8 +160,8 @@ TEST_CASE(
       check(1.0, cycle * quarter * quarter, {0, 0, 0}, 1e-5);
     }
     SUBCASE("any turn") {
-      check(1.0, Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix(),
-            {0, 0, 0}, method.isotropy);
+      check(1.0, Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix(), {0, 0, 0},
+            method.isotropy);
     }
     SUBCASE("renumber") {
       std::vector<Index> new_of_old;
@@ -245,8 +234,7 @@ TEST_CASE("law 8: every platform computes the same, to 1e-9") {
   const Scene s;
   for (const auto& method : test::methods()) {
     CAPTURE(method.name);
-    const auto recorded = std::find_if(all.begin(), all.end(),
-                                       [&](const auto& r) { return r.method == method.name; });
+    const auto recorded = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.method == method.name; });
     REQUIRE(recorded != all.end());
     const auto deformer = method.make(test::shape_of(s.mesh));
     REQUIRE(deformer->set_fixed(s.fixed).ok());
@@ -294,26 +282,20 @@ TEST_CASE("constraints are checked, and after an error the next correct call wor
       return result;
     };
     const Index n = mesh.vertices();
-    CHECK(refused(deformer->set_fixed(std::vector<Index>{0, n})).message().c_str() ==
-          Contains("fixed[1]"));
+    CHECK(refused(deformer->set_fixed(std::vector<Index>{0, n})).message().c_str() == Contains("fixed[1]"));
     CHECK(refused(deformer->set_fixed(std::vector<Index>{-1})).code() == ErrorCode::invalid_handle);
-    CHECK(refused(deformer->set_fixed(std::vector<Index>{7, 7})).message().c_str() ==
-          Contains("listed before"));
-    CHECK(refused(deformer->add_handle(std::vector<Index>{})).status().message().c_str() ==
-          Contains("empty"));
+    CHECK(refused(deformer->set_fixed(std::vector<Index>{7, 7})).message().c_str() == Contains("listed before"));
+    CHECK(refused(deformer->add_handle(std::vector<Index>{})).status().message().c_str() == Contains("empty"));
     REQUIRE(deformer->set_fixed(std::vector<Index>{0}).ok());
-    CHECK(refused(deformer->add_handle(std::vector<Index>{0})).status().message().c_str() ==
-          Contains("fixed"));
+    CHECK(refused(deformer->add_handle(std::vector<Index>{0})).status().message().c_str() == Contains("fixed"));
     const auto handle = deformer->add_handle(std::vector<Index>{30, 31});
     REQUIRE(handle.ok());
     CHECK_FALSE(deformer->set_fixed(std::vector<Index>{31}).ok());
     CHECK(deformer->fixed_points().size() == 1);
-    CHECK(refused(deformer->set_targets(*handle, Points::Zero(3, 1))).message().c_str() ==
-          Contains("expected 2"));
+    CHECK(refused(deformer->set_targets(*handle, Points::Zero(3, 1))).message().c_str() == Contains("expected 2"));
     Points poison = Points::Zero(3, 2);
     poison(1, 1) = std::numeric_limits<double>::quiet_NaN();
-    CHECK(refused(deformer->set_targets(*handle, poison)).message().c_str() ==
-          Contains("targets[1]"));
+    CHECK(refused(deformer->set_targets(*handle, poison)).message().c_str() == Contains("targets[1]"));
     Motion no_axis;
     no_axis.axis.setZero();
     CHECK_FALSE(deformer->move_handle(*handle, no_axis).ok());

@@ -1,7 +1,7 @@
 // pliant: the package, with `pliant.wasm` loaded from beside it.
 
 import { makeInit } from "./init.js";
-import { fetchBinary } from "./wasm.js";
+import { fetchBinary } from "./boundary/wasm.js";
 
 export * from "./public.js";
 

@@ -1,9 +1,9 @@
 // `init`: one started module for all who ask, made when it is first asked for.
 
 import createModule from "#wasm/pliant.mjs";
-import { Core } from "./core.js";
+import { Core } from "./boundary/core.js";
 import { Pliant } from "./pliant.js";
-import { type Binary, compile, type InitOptions, instantiate, readInitOptions } from "./wasm.js";
+import { type Binary, compile, type InitOptions, instantiate, readInitOptions } from "./boundary/wasm.js";
 
 /** Starts the library once and gives it to every caller; a failed start is not kept. Errors: invalid-option. */
 export type Init = (options?: InitOptions) => Promise<Pliant>;

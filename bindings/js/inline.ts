@@ -1,7 +1,7 @@
 // pliant/inline: the same package with the WASM inside the script, for pages opened from a file.
 
 import { makeInit } from "./init.js";
-import { unpack } from "./unpack.js";
+import { unpack } from "./boundary/unpack.js";
 
 export * from "./public.js";
 

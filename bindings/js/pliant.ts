@@ -1,13 +1,13 @@
 // The started library.
 
-import { fields, Place } from "./check.js";
-import type { Core } from "./core.js";
-import { Deformer, readCallback, readSignal } from "./deformer.js";
+import { fields, Place } from "./boundary/check.js";
+import type { Core } from "./boundary/core.js";
+import { Deformer, readCallback, readSignal } from "./deform/deformer.js";
 import type { DeformerOptions, MethodName } from "./methods/index.js";
-import { measure, type MeasureOptions, type Quality } from "./quality.js";
-import type { EditOptions, EditResult, EditScript } from "./script/types.js";
-import { Shape, shapeFor, type ShapeInput } from "./shape.js";
-import { Sketch, type SketchOptions } from "./sketch.js";
+import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
+import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
+import { Shape, shapeFor, type ShapeInput } from "./shape/shape.js";
+import { Sketch, type SketchOptions } from "./deform/sketch.js";
 
 /** What `init` resolves to. */
 export class Pliant {
@@ -45,7 +45,7 @@ export class Pliant {
     const given = fields(place, options, ["signal", "onProgress"]);
     const signal = readSignal(place.at("signal"), given.signal);
     const onProgress = readCallback<EditOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
-    const { edit } = await import("./script/edit.js");
+    const { edit } = await import("./edit/edit.js");
     return edit(this.#core, shape, script, { signal, onProgress });
   }
 }

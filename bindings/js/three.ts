@@ -2,10 +2,10 @@
 // geometry's attributes: vertices repeated for UV seams or groups are welded inside and scattered back.
 
 import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute } from "three";
-import { Place } from "./check.js";
-import { NormalGroups } from "./normals.js";
-import type { ShapeInput } from "./shape.js";
-import { snapped } from "./weld.js";
+import { Place } from "./boundary/check.js";
+import { NormalGroups } from "./shape/normals.js";
+import type { ShapeInput } from "./shape/shape.js";
+import { snapped } from "./shape/weld.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 

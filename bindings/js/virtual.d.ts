@@ -1,12 +1,12 @@
 // Modules that build.mjs makes.
 
 declare module "#wasm/pliant.mjs" {
-  const createModule: import("./wasm.js").ModuleFactory<import("./raw.js").RawModule>;
+  const createModule: import("./boundary/wasm.js").ModuleFactory<import("./boundary/raw.js").RawModule>;
   export default createModule;
 }
 
 declare module "#wasm/pliant-io.mjs" {
-  const createModule: import("./wasm.js").ModuleFactory<import("./raw.js").RawIoModule>;
+  const createModule: import("./boundary/wasm.js").ModuleFactory<import("./boundary/raw.js").RawIoModule>;
   export default createModule;
 }
 

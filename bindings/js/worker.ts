@@ -1,8 +1,8 @@
 // pliant/worker: the same calls as promises, run in a Web Worker (in Node: a worker thread).
 
-import { fields, flag, Place } from "./check.js";
-import type { InitOptions } from "./wasm.js";
-import { absolute, nodeModule, readInitOptions } from "./wasm.js";
+import { fields, flag, Place } from "./boundary/check.js";
+import type { InitOptions } from "./boundary/wasm.js";
+import { absolute, nodeModule, readInitOptions } from "./boundary/wasm.js";
 import { Line } from "./worker/line.js";
 import { WorkerPliant } from "./worker/objects.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
@@ -10,7 +10,7 @@ import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 export { WorkerDeformer, WorkerHandle, WorkerPliant, WorkerShape } from "./worker/objects.js";
 export { WorkerSketch } from "./worker/sketch.js";
 export type * from "./public.js";
-export { PliantError } from "./errors.js";
+export { PliantError } from "./boundary/errors.js";
 
 export interface WorkerInitOptions extends InitOptions {
   /**
@@ -52,7 +52,7 @@ async function travelling(source: InitOptions, inline: boolean): Promise<InitOpt
   if (source.wasmUrl) return { wasmUrl: absolute(source.wasmUrl).href };
   if (source.wasmBinary || source.wasmModule) return source;
   if (!inline) return { wasmUrl: new URL("./pliant.wasm", import.meta.url).href };
-  const { unpack } = await import("./unpack.js");
+  const { unpack } = await import("./boundary/unpack.js");
   return { wasmBinary: await unpack() };
 }
 

@@ -1,4 +1,4 @@
-// Deformers: RawDeformer of bindings/js/raw.ts. One class for every method; only build* differ.
+// Deformers: RawDeformer of bindings/js/boundary/raw.ts. One class for every method; only build* differ.
 #include <memory>
 #include <span>
 #include <string>
@@ -92,8 +92,7 @@ EmbeddedGraphOptions to_options(const EmbeddedGraphValues& values, const Scratch
   options.rotation_weight = values.rotation_weight;
   options.regularization_weight = values.regularization_weight;
   options.constraint_weight = values.constraint_weight;
-  options.solver = values.solver == "gauss-newton" ? EmbeddedGraphSolver::gauss_newton
-                                                   : EmbeddedGraphSolver::automatic;
+  options.solver = values.solver == "gauss-newton" ? EmbeddedGraphSolver::gauss_newton : EmbeddedGraphSolver::automatic;
   options.exact_handles = values.exact_handles;
   options.cuts = to_cuts(scratch.integers());
   options.seed = static_cast<std::uint64_t>(values.seed);
@@ -161,19 +160,16 @@ Motion to_motion(const std::vector<double>& v) {
 /// its own buffers, valid until the next call of the same name.
 class BoundDeformer {
  public:
-  StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values,
-                                   const Scratch& scratch) {
+  StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values, const Scratch& scratch) {
     return take(EmbeddedGraph::create(shape.get(), to_options(values, scratch)));
   }
-  StatusValue build_arap(const BoundShape& shape, bool rims, double constraint_weight,
-                         double smoothness) {
+  StatusValue build_arap(const BoundShape& shape, bool rims, double constraint_weight, double smoothness) {
     return take(Arap::create(shape.get(), to_options(rims, constraint_weight, smoothness)));
   }
   StatusValue set_arap(bool rims, double constraint_weight, double smoothness) {
     return to_value(as<Arap>().set_options(to_options(rims, constraint_weight, smoothness)));
   }
-  StatusValue build_edge_material(const BoundShape& shape, const std::string& field,
-                                  const Scratch& scratch) {
+  StatusValue build_edge_material(const BoundShape& shape, const std::string& field, const Scratch& scratch) {
     return take(EdgeMaterial::create(shape.get(), to_options(field, scratch)));
   }
   StatusValue set_edge_material(const std::string& field, const Scratch& scratch) {
@@ -184,9 +180,7 @@ class BoundDeformer {
     return view_of_matrix(doubles_);
   }
 
-  StatusValue set_fixed(const Scratch& scratch) {
-    return to_value(deformer_->set_fixed(scratch.integers()));
-  }
+  StatusValue set_fixed(const Scratch& scratch) { return to_value(deformer_->set_fixed(scratch.integers())); }
   IdValue add_handle(const Scratch& scratch) {
     const auto id = deformer_->add_handle(scratch.integers());
     return {to_value(id.status()), id.ok() ? *id : 0};
@@ -202,8 +196,7 @@ class BoundDeformer {
   StepValue step(double tolerance) {
     const auto report = deformer_->step(tolerance);
     if (!report.ok()) return {to_value(report.status())};
-    return {to_value(report.status()), report->iteration, report->energy, report->accepted,
-            report->converged};
+    return {to_value(report.status()), report->iteration, report->energy, report->accepted, report->converged};
   }
   double energy_total() const { return deformer_->energy().total; }
   val energy_terms() const {
@@ -287,12 +280,8 @@ EMSCRIPTEN_BINDINGS(pliant_deformer) {
       .field("factorizations", &Counters::factorizations)
       .field("analyses", &Counters::analyses);
   value_object<IdValue>("RawId").field("status", &IdValue::status).field("id", &IdValue::id);
-  value_object<PointsValue>("RawPoints")
-      .field("status", &PointsValue::status)
-      .field("points", &PointsValue::points);
-  value_object<CountValue>("RawCount")
-      .field("status", &CountValue::status)
-      .field("added", &CountValue::added);
+  value_object<PointsValue>("RawPoints").field("status", &PointsValue::status).field("points", &PointsValue::points);
+  value_object<CountValue>("RawCount").field("status", &CountValue::status).field("added", &CountValue::added);
 
   emscripten::class_<BoundDeformer>("Deformer")
       .constructor<>()

@@ -1,4 +1,4 @@
-// pliant-io: RawDocument and RawRewriter of bindings/js/raw.ts.
+// pliant-io: RawDocument and RawRewriter of bindings/js/boundary/raw.ts.
 #include <string>
 #include <vector>
 

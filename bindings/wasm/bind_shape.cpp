@@ -10,8 +10,7 @@ namespace pliant::bindings {
 StatusValue BoundShape::build(const Scratch& scratch, int dimension) {
   const std::vector<std::int32_t>& ids = scratch.integers();
   // The same bits: an id below zero becomes one far out of range, which the door refuses.
-  const std::span<const std::uint32_t> triangles(reinterpret_cast<const std::uint32_t*>(ids.data()),
-                                                 ids.size());
+  const std::span<const std::uint32_t> triangles(reinterpret_cast<const std::uint32_t*>(ids.data()), ids.size());
   auto shape = Shape::create(scratch.doubles(), triangles, dimension);
   if (shape.ok()) shape_ = *shape;
   return to_value(shape.status());

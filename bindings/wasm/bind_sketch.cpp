@@ -1,4 +1,4 @@
-// Editing by strokes: RawSketch of bindings/js/raw.ts.
+// Editing by strokes: RawSketch of bindings/js/boundary/raw.ts.
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,8 +18,7 @@ using emscripten::val;
 /// Takes what JavaScript packed into a scratch, front to back.
 class Unpacker {
  public:
-  explicit Unpacker(const Scratch& scratch)
-      : doubles_(scratch.doubles()), integers_(scratch.integers()) {}
+  explicit Unpacker(const Scratch& scratch) : doubles_(scratch.doubles()), integers_(scratch.integers()) {}
 
   double number() { return numbers(1).front(); }
   Eigen::Vector3d vector() {
@@ -170,8 +169,7 @@ class BoundSketch {
 
   StatusValue refine(const Scratch& scratch, Index max_added) {
     const std::vector<std::int32_t>& ids = scratch.integers();
-    return to_value(sketch_->refine(
-        {reinterpret_cast<const std::uint32_t*>(ids.data()), ids.size()}, max_added));
+    return to_value(sketch_->refine({reinterpret_cast<const std::uint32_t*>(ids.data()), ids.size()}, max_added));
   }
   void unrefine() { sketch_->unrefine(); }
   int added() const {

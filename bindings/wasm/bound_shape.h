@@ -1,4 +1,4 @@
-// RawShape of bindings/js/raw.ts: a shared, immutable Shape that JavaScript holds by one object.
+// RawShape of bindings/js/boundary/raw.ts: a shared, immutable Shape that JavaScript holds by one object.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// RawState of bindings/js/raw.ts: a State read and filled table by table.
+// RawState of bindings/js/boundary/raw.ts: a State read and filled table by table.
 #pragma once
 
 #include <string>

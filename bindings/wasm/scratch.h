@@ -1,4 +1,4 @@
-// Staging memory for arrays on their way into a module: RawScratch of bindings/js/raw.ts.
+// Staging memory for arrays on their way into a module: RawScratch of bindings/js/boundary/raw.ts.
 // JavaScript asks for a view, fills it by `.set()` and passes the scratch to the call that reads
 // it.
 #pragma once
@@ -36,8 +36,7 @@ class Scratch {
 /// the owner's next call.
 template <class Array>
 emscripten::val view_of(const Array& array) {
-  return emscripten::val(
-      emscripten::typed_memory_view(static_cast<std::size_t>(array.size()), array.data()));
+  return emscripten::val(emscripten::typed_memory_view(static_cast<std::size_t>(array.size()), array.data()));
 }
 
 }  // namespace pliant::bindings

@@ -1,4 +1,4 @@
-// A Status on its way to JavaScript: RawStatus of bindings/js/raw.ts, registered in
+// A Status on its way to JavaScript: RawStatus of bindings/js/boundary/raw.ts, registered in
 // bind_scratch.cpp.
 #pragma once
 
@@ -14,8 +14,6 @@ struct StatusValue {
   std::string message;
 };
 
-inline StatusValue to_value(const Status& status) {
-  return {error_code_name(status.code()), status.message()};
-}
+inline StatusValue to_value(const Status& status) { return {error_code_name(status.code()), status.message()}; }
 
 }  // namespace pliant::bindings

@@ -34,9 +34,7 @@ Pairs all_pairs(const Points& points, const Triangles& triangles) {
 
 Pairs tree_pairs(const Points& points, const Triangles& triangles) {
   Pairs pairs;
-  Bvh(points, triangles).for_each_touching_pair([&](Index s, Index t) {
-    pairs.emplace_back(s, t);
-  });
+  Bvh(points, triangles).for_each_touching_pair([&](Index s, Index t) { pairs.emplace_back(s, t); });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -45,11 +43,10 @@ TEST_CASE("the tree finds the pairs a loop over all finds, each once") {
   const test::Mesh inside = test::transformed(test::potato(2), 0.8);
   const test::Mesh grid = test::plane_grid(12, 9);  // many boxes that only touch
   test::Mesh coincident = test::both(test::sphere(0), test::sphere(0));
-  for (const test::Mesh& mesh : {test::both(test::sphere(2), inside), grid, coincident,
-                                 test::torus(20, 10), test::Mesh{{0, 0, 0}, {}}}) {
+  for (const test::Mesh& mesh :
+       {test::both(test::sphere(2), inside), grid, coincident, test::torus(20, 10), test::Mesh{{0, 0, 0}, {}}}) {
     const auto shape = test::shape_of(mesh);
-    CHECK(tree_pairs(shape->points(), shape->triangles()) ==
-          all_pairs(shape->points(), shape->triangles()));
+    CHECK(tree_pairs(shape->points(), shape->triangles()) == all_pairs(shape->points(), shape->triangles()));
   }
 }
 

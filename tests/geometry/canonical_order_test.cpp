@@ -50,21 +50,18 @@ TEST_CASE("the order is a permutation by distance from the centroid") {
 }
 
 TEST_CASE("renumbering the points does not change the order, ties and symmetries included") {
-  for (const test::Mesh& mesh :
-       {test::potato(2), test::sphere(2), test::bumpy_plane(17, 2, 0.1), test::tube(12, 7),
-        test::torus(16, 8), test::box(2, 1, 1, 0.25), with_mirror_plane()}) {
+  for (const test::Mesh& mesh : {test::potato(2), test::sphere(2), test::bumpy_plane(17, 2, 0.1), test::tube(12, 7),
+                                 test::torus(16, 8), test::box(2, 1, 1, 0.25), with_mirror_plane()}) {
     CHECK(largest_difference(ordered(mesh), ordered(test::renumbered(mesh, 3))) == 0.0);
   }
 }
 
 TEST_CASE("the order moves with the scene") {
   const Eigen::Vector3d away(30, -70, 110);
-  const Eigen::Matrix3d any =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d any = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   for (const test::Mesh& mesh : {test::potato(2), with_mirror_plane()}) {
     const Points rest = ordered(mesh);
-    for (const Eigen::Matrix3d& turn :
-         {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), quarter_turn, any}) {
+    for (const Eigen::Matrix3d& turn : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), quarter_turn, any}) {
       const Points moved = ordered(test::transformed(mesh, 0.01, turn, away));
       const Points expected = ((0.01 * turn) * rest).colwise() + away;
       CHECK(largest_difference(moved, expected) < 1e-13 * away.norm());

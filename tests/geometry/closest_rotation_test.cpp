@@ -44,8 +44,7 @@ TEST_CASE("where the points leave the turn open it is the smallest one") {
     from.col(i) << i, 0, 0;
     to.col(i) << 0, i, 0;
   }
-  CHECK((fit(from, to).rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm() <
-        1e-14);
+  CHECK((fit(from, to).rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm() < 1e-14);
 }
 
 TEST_CASE("of points that do not fit exactly the sum of squares is least") {
@@ -57,6 +56,5 @@ TEST_CASE("of points that do not fit exactly the sum of squares is least") {
     return ((moved.colwise() + shift) - to).squaredNorm();
   };
   const double least = error({0, 0, 0}, {0, 0, 0});
-  for (int k = 0; k < 20; ++k)
-    CHECK(error(1e-3 * random.vector(3), 1e-3 * random.vector(3)) > least);
+  for (int k = 0; k < 20; ++k) CHECK(error(1e-3 * random.vector(3), 1e-3 * random.vector(3)) > least);
 }

@@ -36,23 +36,21 @@ Index crossings_of_all_pairs(const Shape& shape, const Points& points) {
       for (const Index corner : triangles.col(s)) {
         shared |= (triangles.col(t).array() == corner).any();
       }
-      count += !shared &&
-               triangles_cross(corners(points, triangles, s), corners(points, triangles, t), 1e-10);
+      count += !shared && triangles_cross(corners(points, triangles, s), corners(points, triangles, t), 1e-10);
     }
   }
   return count;
 }
 
 TEST_CASE("a rigid motion changes nothing") {
-  const test::Mesh pair = test::both(
-      test::sphere(2), test::transformed(test::potato(2), 0.7, Eigen::Matrix3d::Identity(),
-                                         {0.5, 0.1, 0.0}));  // crosses the sphere, before and after
+  const test::Mesh pair =
+      test::both(test::sphere(2), test::transformed(test::potato(2), 0.7, Eigen::Matrix3d::Identity(),
+                                                    {0.5, 0.1, 0.0}));  // crosses the sphere, before and after
   // Boxes side by side: their sides touch without sharing all vertices.
-  const test::Mesh stacked = test::both(
-      test::box(1, 1, 1, 0.5), test::transformed(test::box(1, 1, 1, 0.25), 1.0,
-                                                 Eigen::Matrix3d::Identity(), {1.0, 0.1, 0.1}));
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const test::Mesh stacked =
+      test::both(test::box(1, 1, 1, 0.5),
+                 test::transformed(test::box(1, 1, 1, 0.25), 1.0, Eigen::Matrix3d::Identity(), {1.0, 0.1, 0.1}));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   for (const test::Mesh& mesh : {pair, stacked, test::bumpy_plane(21, 2, 0.1)}) {
     const auto shape = test::shape_of(mesh);
     const Quality quality = measure_quality(*shape, mapped(shape->points(), [&](const auto& p) {
@@ -83,8 +81,7 @@ TEST_CASE("a sphere of twice the size: volume 8, area 4, edges twice as long, sa
 
 TEST_CASE("turned inside out a sphere has volume -1") {
   const auto shape = test::shape_of(test::sphere(1));
-  CHECK(measure_quality(*shape, -shape->points()).volume.value() ==
-        doctest::Approx(-1.0).epsilon(1e-12));
+  CHECK(measure_quality(*shape, -shape->points()).volume.value() == doctest::Approx(-1.0).epsilon(1e-12));
 }
 
 TEST_CASE("a plane bent into a half circle keeps lengths, angles and area") {
@@ -111,8 +108,8 @@ TEST_CASE("stretch is told by its mean, its 95th percentile and its maximum") {
   Points deformed(3, 63);
   for (int i = 0; i <= 20; ++i) {
     const Eigen::Vector3d at(3.0 * i, 0, 0);
-    for (const Eigen::Vector3d& corner : {at, Eigen::Vector3d(at + Eigen::Vector3d(1, 0, 0)),
-                                          Eigen::Vector3d(at + Eigen::Vector3d(0, 1, 0))}) {
+    for (const Eigen::Vector3d& corner :
+         {at, Eigen::Vector3d(at + Eigen::Vector3d(1, 0, 0)), Eigen::Vector3d(at + Eigen::Vector3d(0, 1, 0))}) {
       const auto v = static_cast<std::uint32_t>(mesh.vertices());
       mesh.triangles.push_back(v);
       mesh.positions.insert(mesh.positions.end(), {corner.x(), corner.y(), corner.z()});
@@ -165,8 +162,7 @@ TEST_CASE("folds and crossings the rest shape has are not new") {
 
 TEST_CASE("two spheres pushed into each other cross where a loop over all pairs says so") {
   const test::Mesh apart = test::both(
-      test::sphere(2),
-      test::transformed(test::sphere(2), 0.9, Eigen::Matrix3d::Identity(), {2.0, 0.1, 0.05}));
+      test::sphere(2), test::transformed(test::sphere(2), 0.9, Eigen::Matrix3d::Identity(), {2.0, 0.1, 0.05}));
   const auto shape = test::shape_of(apart);
   const Points pushed = mapped(shape->points(), [](const Eigen::Vector3d& p) {
     return p.x() > 1.01 ? Eigen::Vector3d(p - Eigen::Vector3d(0.8, 0, 0)) : p;

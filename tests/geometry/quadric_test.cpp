@@ -8,8 +8,7 @@ namespace pliant {
 namespace {
 
 TEST_CASE("a quadric is the sum of weighted squared distances from its planes") {
-  const std::vector<Eigen::Vector3d> normals = {
-      {1, 0, 0}, {0, 0.6, 0.8}, Eigen::Vector3d(1, 2, 3).normalized()};
+  const std::vector<Eigen::Vector3d> normals = {{1, 0, 0}, {0, 0.6, 0.8}, Eigen::Vector3d(1, 2, 3).normalized()};
   const std::vector<double> weights = {1.0, 0.5, 2.0};
   const auto expected = [&](const Eigen::Vector3d& offset) {
     double sum = 0.0;

@@ -41,9 +41,8 @@ double largest_difference(const Points& a, const Points& b) {
 }
 
 TEST_CASE("samples are as many as asked for, far apart, and leave no hole") {
-  for (const test::Mesh& mesh :
-       {test::potato(4), test::bumpy_plane(41, 4, 0.02), test::torus(48, 24), test::tube(40, 40),
-        test::box(3, 1, 1, 0.5)}) {
+  for (const test::Mesh& mesh : {test::potato(4), test::bumpy_plane(41, 4, 0.02), test::torus(48, 24),
+                                 test::tube(40, 40), test::box(3, 1, 1, 0.5)}) {
     const auto shape = test::shape_of(mesh);
     for (const Index count : {10, 57, 200}) {
       const Points samples = sample_surface(*shape, std::min(count, shape->input_size()), 1);
@@ -69,10 +68,9 @@ TEST_CASE("samples lie on the surface, not at its vertices") {
 
 TEST_CASE("uneven triangles do not bias the samples") {
   // The left half of the strip has 200 times the triangles of the right half.
-  const test::Mesh mesh =
-      test::both(test::plane_grid(41, 21, 2.0, 1.0),
-                 test::transformed(test::plane_grid(3, 2, 2.0, 1.0), 1.0,
-                                   Eigen::Matrix3d::Identity(), {2.0, 0.0, 0.0}));
+  const test::Mesh mesh = test::both(
+      test::plane_grid(41, 21, 2.0, 1.0),
+      test::transformed(test::plane_grid(3, 2, 2.0, 1.0), 1.0, Eigen::Matrix3d::Identity(), {2.0, 0.0, 0.0}));
   const Points samples = sample_surface(*test::shape_of(mesh), 300, 1);
   CHECK((samples.row(0).array() < 2.0).count() == doctest::Approx(150).epsilon(0.06));
 }
@@ -88,8 +86,8 @@ TEST_CASE("numbering does not matter, not even on symmetric shapes") {
         a.triangles.clear();
         b.triangles.clear();
       }
-      CHECK(largest_difference(sample_surface(*test::shape_of(a), 80, 1),
-                               sample_surface(*test::shape_of(b), 80, 1)) < 1e-14);
+      CHECK(largest_difference(sample_surface(*test::shape_of(a), 80, 1), sample_surface(*test::shape_of(b), 80, 1)) <
+            1e-14);
     }
   }
 }
@@ -97,15 +95,14 @@ TEST_CASE("numbering does not matter, not even on symmetric shapes") {
 TEST_CASE("samples move, turn and scale with the scene") {
   const test::Mesh mesh = test::potato(3);
   const Points rest = sample_surface(*test::shape_of(mesh), 100, 1);
-  const Eigen::Matrix3d turns[] = {
-      Eigen::Matrix3d::Identity(), (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(),
-      (Eigen::Matrix3d() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished(),
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix()};
+  const Eigen::Matrix3d turns[] = {Eigen::Matrix3d::Identity(),
+                                   (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished(),
+                                   (Eigen::Matrix3d() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished(),
+                                   Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix()};
   for (const Eigen::Matrix3d& turn : turns) {
     for (const double scale : {0.01, 1.0, 100.0}) {
       const Eigen::Vector3d away = scale * Eigen::Vector3d(30, -70, 110);
-      const Points moved =
-          sample_surface(*test::shape_of(test::transformed(mesh, scale, turn, away)), 100, 1);
+      const Points moved = sample_surface(*test::shape_of(test::transformed(mesh, scale, turn, away)), 100, 1);
       const Points expected = ((scale * turn) * rest).colwise() + away;
       CHECK(largest_difference(moved, expected) < 1e-12 * scale);
     }
@@ -121,8 +118,7 @@ TEST_CASE("a seed decides, and nothing else") {
 
 TEST_CASE("components share the samples by area") {
   const test::Mesh mesh = test::both(
-      test::sphere(3),
-      test::transformed(test::sphere(2), 0.5, Eigen::Matrix3d::Identity(), {5.0, 0.0, 0.0}));
+      test::sphere(3), test::transformed(test::sphere(2), 0.5, Eigen::Matrix3d::Identity(), {5.0, 0.0, 0.0}));
   const Points samples = sample_surface(*test::shape_of(mesh), 200, 1);
   CHECK((samples.row(0).array() > 3.0).count() == doctest::Approx(40).epsilon(0.15));
 }
@@ -131,9 +127,9 @@ TEST_CASE("a component worth a node gets one, however close to a larger one") {
   // Share of the area: 1.2 nodes of 60; three times closer to the sphere than the samples'
   // distance.
   const double radius = std::sqrt(1.2 / 60);
-  const test::Mesh mesh = test::both(
-      test::sphere(3), test::transformed(test::sphere(2), radius, Eigen::Matrix3d::Identity(),
-                                         {1.05 + radius, 0.0, 0.0}));
+  const test::Mesh mesh =
+      test::both(test::sphere(3),
+                 test::transformed(test::sphere(2), radius, Eigen::Matrix3d::Identity(), {1.05 + radius, 0.0, 0.0}));
   const auto shape = test::shape_of(mesh);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Points samples = sample_surface(*shape, 60, seed);
@@ -187,9 +183,9 @@ TEST_CASE("far outliers and tight clusters still give the number asked for") {
 
 TEST_CASE("two sheets that touch are sampled apart") {
   // A closed flat bag: every place of the surface lies on another.
-  const test::Mesh mesh = test::both(
-      test::plane_grid(11, 11), test::transformed(test::plane_grid(11, 11), 1.0,
-                                                  Eigen::Matrix3d::Identity(), {0.05, 0.05, 0.0}));
+  const test::Mesh mesh =
+      test::both(test::plane_grid(11, 11),
+                 test::transformed(test::plane_grid(11, 11), 1.0, Eigen::Matrix3d::Identity(), {0.05, 0.05, 0.0}));
   const Points samples = sample_surface(*test::shape_of(mesh), 100, 1);
   CHECK(spread_of(samples).least > 0.07);
 }

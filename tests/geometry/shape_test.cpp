@@ -16,8 +16,7 @@ namespace {
 using Coordinates = std::vector<double>;
 using Ids = std::vector<std::uint32_t>;
 
-void check_refused(const Coordinates& positions, const Ids& triangles, int dimension,
-                   const std::string& message) {
+void check_refused(const Coordinates& positions, const Ids& triangles, int dimension, const std::string& message) {
   const auto shape = Shape::create(positions, triangles, dimension);
   REQUIRE(!shape.ok());
   CHECK(shape.status().code() == ErrorCode::invalid_shape);
@@ -33,19 +32,15 @@ TEST_CASE("the door refuses what is not a shape, and says why") {
   check_refused({0, 0, 0}, {}, 4, "dimension is 4; expected 2 or 3");
   check_refused({0, 0, 0, 0, nan, 0}, {}, 3, "positions[4] is NaN; expected a finite number");
   check_refused({-infinity, 0, 0}, {}, 3, "positions[0] is -Infinity; expected a finite number");
-  check_refused({0, 2e30, 0}, {}, 3,
-                "positions[1] is 2e+30; expected a magnitude of at most 1e+30");
-  check_refused({0, 0, 0, 0, 0, 1e-31}, {}, 3,
-                "positions span 1e-31; expected at least 1e-30, or one position only");
+  check_refused({0, 2e30, 0}, {}, 3, "positions[1] is 2e+30; expected a magnitude of at most 1e+30");
+  check_refused({0, 0, 0, 0, 0, 1e-31}, {}, 3, "positions span 1e-31; expected at least 1e-30, or one position only");
   check_refused({0, 0, 0}, {0, 0}, 3, "triangles has length 2; expected a multiple of 3");
   check_refused({0, 0, 0}, {0, 0, 1}, 3, "triangles[2] is 1; expected a vertex id below 1");
-  check_refused({0, 0, 0}, {0, 4294967295u, 0}, 3,
-                "triangles[1] is 4294967295; expected a vertex id below 1");
+  check_refused({0, 0, 0}, {0, 4294967295u, 0}, 3, "triangles[1] is 4294967295; expected a vertex id below 1");
 }
 
 TEST_CASE("equal positions become one point, -0 is 0, results go back to every vertex") {
-  const auto shape =
-      Shape::create(Coordinates{1, 0, 0, 0, 1, 0, 1, -0.0, 0, 0, 0, 1}, Ids{2, 1, 3});
+  const auto shape = Shape::create(Coordinates{1, 0, 0, 0, 1, 0, 1, -0.0, 0, 0, 0, 1}, Ids{2, 1, 3});
   REQUIRE(shape.ok());
   const Shape& s = **shape;
   CHECK(s.input_size() == 4);
@@ -99,8 +94,7 @@ TEST_CASE("reports agree with Euler's formula and with the way the shapes are bu
   CHECK(tube.boundary_edges == 18);
   CHECK(tube.components == 1);
 
-  for (const test::Mesh& closed :
-       {test::sphere(2), test::torus(12, 8), test::box(2, 1, 1, 0.5), test::potato(2)}) {
+  for (const test::Mesh& closed : {test::sphere(2), test::torus(12, 8), test::box(2, 1, 1, 0.5), test::potato(2)}) {
     const ShapeReport report = test::shape_of(closed)->report();
     CHECK(report.boundary_edges == 0);
     CHECK(report.non_manifold_edges == 0);
@@ -167,8 +161,8 @@ TEST_CASE("in local order it is the same shape, with edges that reach less far i
   const auto triangles_of = [](const Shape& of) {
     std::vector<std::array<Index, 3>> triangles;
     for (const auto& corners : of.triangles().colwise()) {
-      triangles.push_back({of.vertex_of_point()[corners[0]], of.vertex_of_point()[corners[1]],
-                           of.vertex_of_point()[corners[2]]});
+      triangles.push_back(
+          {of.vertex_of_point()[corners[0]], of.vertex_of_point()[corners[1]], of.vertex_of_point()[corners[2]]});
     }
     std::sort(triangles.begin(), triangles.end());
     return triangles;

@@ -8,8 +8,7 @@
 namespace pliant {
 namespace {
 
-Eigen::Matrix3d triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                         const Eigen::Vector3d& c) {
+Eigen::Matrix3d triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   Eigen::Matrix3d corners;
   corners << a, b, c;
   return corners;
@@ -23,8 +22,7 @@ bool cross_both_ways(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return cross;
 }
 
-double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-              const Eigen::Vector3d& d) {
+double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
   return (b - a).cross(c - a).dot(d - a);
 }
 

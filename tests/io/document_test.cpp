@@ -37,14 +37,12 @@ TEST_CASE("obj: vertices in order, polygons, texture coordinates, relative ids, 
   CHECK(test::same_bits(mesh.positions, {0, 0, 0, 1.25, 0, -0.0, 1, 1, 0.5, 0, 1, 0, 2, 3, 4}));
   CHECK(mesh.face_vertices == Ids{0, 1, 2, 3, 4, 0, 1, 0, 1, 2, 4});
   CHECK(mesh.face_offsets == Ids{0, 4, 7, 11});
-  CHECK(corner_texcoords(mesh) ==
-        Numbers{0, 0, 1, 0, 1, 1, 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  CHECK(corner_texcoords(mesh) == Numbers{0, 0, 1, 0, 1, 1, 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   CHECK(document.triangles().size() == 15);
 }
 
 TEST_CASE("obj: a face may stand before its vertices, texture ids differ from vertex ids") {
-  const Document document =
-      read(FileFormat::obj, "f 3/1 2/2 1/3\nvt 9 8\nv 0 0 0\nvt 7 6\nv 1 0 0\nvt 5 4\nv 0 1 0\n");
+  const Document document = read(FileFormat::obj, "f 3/1 2/2 1/3\nvt 9 8\nv 0 0 0\nvt 7 6\nv 1 0 0\nvt 5 4\nv 0 1 0\n");
   CHECK(document.mesh().face_vertices == Ids{2, 1, 0});
   CHECK(corner_texcoords(document.mesh()) == Numbers{9, 8, 7, 6, 5, 4});
 }
@@ -54,8 +52,7 @@ TEST_CASE("line endings of all systems") {
   for (const char* file : {"v 1 2 3\nv 4 5 6", "v 1 2 3\r\nv 4 5 6\r\n", "v 1 2 3\rv 4 5 6\r"}) {
     CHECK(read(FileFormat::obj, file).mesh().positions == expected);
   }
-  CHECK(test::complaint(FileFormat::obj, "v 1 2 3\r\n\rv 4\r\n") ==
-        "line 3: expected 3 coordinates, found 1");
+  CHECK(test::complaint(FileFormat::obj, "v 1 2 3\r\n\rv 4\r\n") == "line 3: expected 3 coordinates, found 1");
 }
 
 TEST_CASE("ply: ascii and both binary encodings hold the same") {
@@ -64,13 +61,11 @@ TEST_CASE("ply: ascii and both binary encodings hold the same") {
   CHECK(ascii.positions == Numbers{0, 0, 0.5, 1.5, 0, 0, 1, 1, 0, 0, 1, 0});
   CHECK(ascii.face_vertices == Ids{0, 1, 2, 3, 0, 2, 3});
   CHECK(ascii.face_offsets == Ids{0, 4, 7});
-  CHECK(corner_texcoords(ascii) ==
-        Numbers{0.25, 0.5, 0.75, 0.5, 1, 1, 0, 1, 0.25, 0.5, 1, 1, 0, 1});
+  CHECK(corner_texcoords(ascii) == Numbers{0.25, 0.5, 0.75, 0.5, 1, 1, 0, 1, 0.25, 0.5, 1, 1, 0, 1});
 
   const PolygonMesh little = read(FileFormat::ply, samples[2].file).mesh();
   const PolygonMesh big = read(FileFormat::ply, samples[3].file).mesh();
-  const Numbers positions{0,    0,  0,      static_cast<double>(1.1f), 0, 0.1, 1, 300, 0.2,
-                          -0.0, -7, 0.1 * 3};
+  const Numbers positions{0, 0, 0, static_cast<double>(1.1f), 0, 0.1, 1, 300, 0.2, -0.0, -7, 0.1 * 3};
   for (const PolygonMesh& mesh : {little, big}) {
     CHECK(test::same_bits(mesh.positions, positions));
     CHECK(mesh.face_vertices == Ids{0, 1, 2, 3, 3, 2, 0});
@@ -80,11 +75,11 @@ TEST_CASE("ply: ascii and both binary encodings hold the same") {
 }
 
 TEST_CASE("ply: triangle strips, each second triangle turned around, -1 between strips") {
-  const Document document = read(
-      FileFormat::ply,
-      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
-      "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 -1 4 3 2 -1\n");
+  const Document document =
+      read(FileFormat::ply,
+           "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+           "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+           "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 -1 4 3 2 -1\n");
   CHECK(document.mesh().face_vertices == Ids{0, 1, 2, 2, 1, 3, 4, 3, 2});
 }
 
@@ -173,10 +168,9 @@ TEST_CASE("every file written again in its format holds the new positions and wh
 
 TEST_CASE("binary stl written from a shape has normals of its facets") {
   Document document;
-  REQUIRE(document
-              .assign(Numbers{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 0},
-                      std::vector<std::int32_t>{3, 0, 1, 2, 3, 0, 1, 3})
-              .ok());
+  REQUIRE(
+      document.assign(Numbers{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 0}, std::vector<std::int32_t>{3, 0, 1, 2, 3, 0, 1, 3})
+          .ok());
   const std::string file = write(document, FileFormat::stl, document.mesh().positions);
   REQUIRE(file.size() == 84 + 2 * 50);
   CHECK(file.substr(84, 12) == test::binary<float>({0, 0, 1}));
@@ -188,8 +182,7 @@ TEST_CASE("polygons with more corners than a byte counts survive ply") {
   for (int i = 0; i < 300; ++i) polygon.push_back(i);
   Document document;
   REQUIRE(document.assign(test::awkward_numbers(900), polygon).ok());
-  const Document back =
-      read(FileFormat::ply, write(document, FileFormat::ply, document.mesh().positions));
+  const Document back = read(FileFormat::ply, write(document, FileFormat::ply, document.mesh().positions));
   CHECK(back.mesh().face_vertices == document.mesh().face_vertices);
 }
 
@@ -203,12 +196,10 @@ TEST_CASE("bad arguments are refused and leave the document as it was") {
   const auto shape = ErrorCode::invalid_shape;
   refuse(document.write(FileFormat::obj, Numbers{1, 2, 3}).status(), shape,
          "the document is empty; read or assign one first");
-  refuse(document.assign(Numbers{}, {}), shape,
-         "positions has 0 numbers; expected 3 a vertex and at least one vertex");
+  refuse(document.assign(Numbers{}, {}), shape, "positions has 0 numbers; expected 3 a vertex and at least one vertex");
   refuse(document.assign(Numbers{1, 2, 3, 4}, {}), shape,
          "positions has 4 numbers; expected 3 a vertex and at least one vertex");
-  refuse(document.assign(Numbers{1, 2, nan}, {}), shape,
-         "positions[2] is NaN; expected a finite number");
+  refuse(document.assign(Numbers{1, 2, nan}, {}), shape, "positions[2] is NaN; expected a finite number");
   const Numbers three{0, 0, 0, 1, 0, 0, 0, 1, 0};
   using Polygons = std::vector<std::int32_t>;
   refuse(document.assign(three, Polygons{2, 0, 1}), shape,
@@ -233,14 +224,12 @@ TEST_CASE("bad arguments are refused and leave the document as it was") {
   REQUIRE(document.read(FileFormat::xyz, test::bytes_of("1 2 3\n")).ok());
   refuse(document.write(FileFormat::stl, Numbers{1, 2, 3}).status(), shape,
          "the shape has no faces; expected some, since STL holds nothing else");
-  CHECK(format_from_name("OBJ").status().message() ==
-        "format is \"OBJ\"; expected obj, ply, off, stl or xyz");
+  CHECK(format_from_name("OBJ").status().message() == "format is \"OBJ\"; expected obj, ply, off, stl or xyz");
 }
 
 TEST_CASE("more vertices than a shape may have are refused while reading") {
-  const std::size_t count = std::size_t{Shape::max_vertices} + 1;
-  std::string file = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                     std::to_string(count) +
+  const std::size_t count = std::size_t{Shape::kMaxVertices} + 1;
+  std::string file = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
                      "\nproperty char x\nproperty char y\nproperty char z\nend_header\n";
   file.resize(file.size() + 3 * count);
   Document document;

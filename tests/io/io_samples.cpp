@@ -57,8 +57,8 @@ std::string ply_binary(bool big) {
   const float xs[] = {0.0f, 1.1f, 1.0f, -0.0f};
   const std::int16_t ys[] = {0, 0, 300, -7};
   for (int i = 0; i < 4; ++i) {
-    file += binary<float>({xs[i]}, big) + binary<std::int16_t>({ys[i]}, big) + "\x0A" +
-            binary<float>({1.0f}, big) + binary<double>({0.1 * i}, big);
+    file += binary<float>({xs[i]}, big) + binary<std::int16_t>({ys[i]}, big) + "\x0A" + binary<float>({1.0f}, big) +
+            binary<double>({0.1 * i}, big);
   }
   file += binary<std::int32_t>({5}, big) + "\x04" + binary<std::int32_t>({0, 1, 2, 3}, big) +
           binary<std::uint16_t>({8}, big) + binary<float>({0, 0, 1, 0, 1, 1, 0, 0.5f}, big);

@@ -26,8 +26,7 @@ inline Document read(FileFormat format, std::string_view file) {
   return document;
 }
 
-inline std::string write(const Document& document, FileFormat format,
-                         const std::vector<double>& positions) {
+inline std::string write(const Document& document, FileFormat format, const std::vector<double>& positions) {
   const Result<Bytes> bytes = document.write(format, positions);
   REQUIRE_MESSAGE(bytes.ok(), bytes.status().message());
   return string_of(*bytes);
@@ -70,8 +69,8 @@ std::string binary(std::initializer_list<T> values, bool big_endian = false) {
   return string_of(bytes);
 }
 
-constexpr FileFormat all_formats[] = {FileFormat::obj, FileFormat::ply, FileFormat::off,
-                                      FileFormat::stl, FileFormat::xyz};
+constexpr FileFormat all_formats[] = {FileFormat::obj, FileFormat::ply, FileFormat::off, FileFormat::stl,
+                                      FileFormat::xyz};
 
 /// A file for the tests that run over every kind: it has every construct the format knows.
 struct Sample {

@@ -61,12 +61,10 @@ std::vector<Malformed> obj_files() {
       {obj, v3 + "f 1 2 3.5\n", "line 4: face corner is \"3.5\"; expected vertex ids, as in 1/2/3"},
       {obj, v3 + "f 1 2 1-2\n", "line 4: face corner is \"1-2\"; expected vertex ids, as in 1/2/3"},
       {obj, v3 + "f 1/ 2 3\n", "line 4: face corner is \"1/\"; expected vertex ids, as in 1/2/3"},
-      {obj, v3 + "f 1 2 4294967297\n",
-       "line 4: face corner is \"4294967297\"; expected vertex ids, as in 1/2/3"},
+      {obj, v3 + "f 1 2 4294967297\n", "line 4: face corner is \"4294967297\"; expected vertex ids, as in 1/2/3"},
       {obj, v3 + "vt 0 0\nf 1/1 2/1 3/2\n",
        "line 5: face refers to texture coordinate 2; the file has 1 texture coordinates"},
-      {obj, v3 + "f 1/-1 2 3\nvt 0 0\n",
-       "line 4: face refers to texture coordinate -1; 0 stand before it"},
+      {obj, v3 + "f 1/-1 2 3\nvt 0 0\n", "line 4: face refers to texture coordinate -1; 0 stand before it"},
       {obj, "v 0 0 \\\n", "line 1: expected 3 coordinates, found 2"},
   };
 }
@@ -101,21 +99,18 @@ std::vector<Malformed> ply_files() {
       {format, ply("element vertex 1\nproperty float x\nproperty float x\n", ""),
        "line 5: property \"x\" stands twice"},
       {format, ply(vertex + "element vertex 1\n", ""), "line 7: element \"vertex\" stands twice"},
-      {format, ply(vertex + "element void 4000000000\n", "0 0 0\n"),
-       "line 8: element \"void\" has no properties"},
+      {format, ply(vertex + "element void 4000000000\n", "0 0 0\n"), "line 8: element \"void\" has no properties"},
       {format, ply("elements vertex 1\n", ""),
        "line 3: found \"elements\"; expected format, element, property, comment, obj_info or "
        "end_header"},
       {format, ply("element vertex 3000000000\n" + xyz_properties, "0 0 0\n"),
        "line 9: the file ends after 1 of 3000000000 records of element \"vertex\""},
       {format, ply(vertex, "0 0\n"), "line 8: the line ends before \"z\""},
-      {format, ply(vertex, "0 0 1 5\n"),
-       "line 8: found \"5\" behind the 3 properties of element vertex"},
+      {format, ply(vertex, "0 0 1 5\n"), "line 8: found \"5\" behind the 3 properties of element vertex"},
       {format, ply(vertex, "0 0 inf\n"), "line 8: z is \"inf\"; expected a finite decimal number"},
       {format, ply(lists, "0 0 0\n3 0 0 1\n"),
        "line 11: face refers to vertex 1; the file has 1 vertices, counted from 0"},
-      {format, ply(lists, "0 0 0\n3 0 0 -1\n"),
-       "line 11: face refers to vertex -1; expected whole numbers from 0 up"},
+      {format, ply(lists, "0 0 0\n3 0 0 -1\n"), "line 11: face refers to vertex -1; expected whole numbers from 0 up"},
       {format, ply(lists, "0 0 0\n3 0 0 0.5\n"),
        "line 11: face refers to vertex 0.5; expected whole numbers from 0 up"},
       {format, ply(lists, "0 0 0\n4 0 0 0\n"), "line 11: the line ends before \"vertex_indices\""},
@@ -123,11 +118,9 @@ std::vector<Malformed> ply_files() {
        "line 11: the count of list \"vertex_indices\" is \"-1\"; expected a whole number"},
       {format, binary_ply(vertex, test::binary<float>({0, 0})),
        "byte 115: the file ends after 0 of 1 records of element \"vertex\""},
-      {format,
-       binary_ply("element vertex 4000000000\n" + xyz_properties, test::binary<float>({0, 0, 0})),
+      {format, binary_ply("element vertex 4000000000\n" + xyz_properties, test::binary<float>({0, 0, 0})),
        "byte 136: the file ends after 1 of 4000000000 records of element \"vertex\""},
-      {format, binary_ply(vertex, test::binary<float>({0, 0, HUGE_VALF})),
-       "byte 115: z of vertex 0 is not finite"},
+      {format, binary_ply(vertex, test::binary<float>({0, 0, HUGE_VALF})), "byte 115: z of vertex 0 is not finite"},
       {format,
        binary_ply(lists, test::binary<float>({0, 0, 0}) + "\xFF"
                                                           "abc"),
@@ -158,31 +151,23 @@ std::vector<Malformed> other_files() {
       {off, "OFF\n0 0 0\n", "the file has no vertices"},
       {off, "OFF\n3000000000 1 0\n0 0 0\n", "line 4: the file ends after 1 of 3000000000 vertices"},
       {off, "OFF\n1 2 0\n0 0 0\n3 0 0 0\n", "line 5: the file ends after 1 of 2 faces"},
-      {off, "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",
-       "line 4: face refers to vertex \"1\"; expected ids from 0 to 0"},
-      {off, "OFF\n1 1 0\n0 0 0\n3 0 0 -1\n",
-       "line 4: face refers to vertex \"-1\"; expected ids from 0 to 0"},
-      {off, "OFF\n1 1 0\n0 0 0\n900000000000 0 0 0\n",
-       "line 4: face has 3 corners; expected 900000000000"},
+      {off, "OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: face refers to vertex \"1\"; expected ids from 0 to 0"},
+      {off, "OFF\n1 1 0\n0 0 0\n3 0 0 -1\n", "line 4: face refers to vertex \"-1\"; expected ids from 0 to 0"},
+      {off, "OFF\n1 1 0\n0 0 0\n900000000000 0 0 0\n", "line 4: face has 3 corners; expected 900000000000"},
       {off, "OFF\n1 1 0\n0 0 0\nx\n", "line 4: expected the number of corners, found \"x\""},
       {off, "NOFF\n1 0 0\n0 0 0 1\n", "line 3: expected 3 numbers of a normal"},
-      {off, "STOFF\n1 0 0\n0 0 0 1 x\n",
-       "line 3: expected 2 finite texture coordinates at the end"},
+      {off, "STOFF\n1 0 0\n0 0 0 1 x\n", "line 3: expected 2 finite texture coordinates at the end"},
       {stl, "", "byte 0: the file is empty"},
       {stl, "solid s\nendsolid s\n", "the file has no vertices"},
       {stl, facet("vertex 0 0 0\nvertex 1 0 0\n"), "line 7: facet has 2 vertices; expected 3"},
       {stl, facet("vertex 0 0 0\nvertex 1 0 0\nvertex 0 x 0\n"),
        "line 6: y is \"x\"; expected a finite decimal number"},
-      {stl, facet("normal 0 0 0\n"),
-       "line 4: found \"normal\"; expected outer loop, vertex, endloop or endfacet"},
-      {stl, "solid s\nvertex 0 0 0\n",
-       "line 2: found \"vertex\"; expected solid, facet or endsolid"},
+      {stl, facet("normal 0 0 0\n"), "line 4: found \"normal\"; expected outer loop, vertex, endloop or endfacet"},
+      {stl, "solid s\nvertex 0 0 0\n", "line 2: found \"vertex\"; expected solid, facet or endsolid"},
       {stl, "solid s\nfacet norm 0 0 0\n", "line 2: found \"norm\"; expected normal"},
       {stl, "solid s\nfacet normal 0 0\n", "line 2: expected 3 numbers of a normal"},
-      {stl, "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
-       "line 5: the file ends inside a facet"},
-      {stl, std::string(10, '\0'),
-       "byte 0: the file ends inside the header of a binary STL (10 of 84 bytes)"},
+      {stl, "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "line 5: the file ends inside a facet"},
+      {stl, std::string(10, '\0'), "byte 0: the file ends inside the header of a binary STL (10 of 84 bytes)"},
       {stl, binary_stl(0, 0), "the file has no vertices"},
       {stl, binary_stl(2, 99), "byte 134: the file ends inside facet 2 of 2"},
       {stl, binary_stl(0xFFFFFFFF, 50), "byte 134: the file ends inside facet 2 of 4294967295"},
@@ -204,17 +189,11 @@ void check_all(const std::vector<Malformed>& files) {
   }
 }
 
-TEST_CASE("malformed obj files are refused with the line and the reason") {
-  check_all(obj_files());
-}
+TEST_CASE("malformed obj files are refused with the line and the reason") { check_all(obj_files()); }
 
-TEST_CASE("malformed ply files are refused with the place and the reason") {
-  check_all(ply_files());
-}
+TEST_CASE("malformed ply files are refused with the place and the reason") { check_all(ply_files()); }
 
-TEST_CASE("malformed off, stl and xyz files are refused with the place and the reason") {
-  check_all(other_files());
-}
+TEST_CASE("malformed off, stl and xyz files are refused with the place and the reason") { check_all(other_files()); }
 
 }  // namespace
 }  // namespace pliant::io

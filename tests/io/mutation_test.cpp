@@ -20,9 +20,8 @@ class Mutator {
 
  private:
   void damage(std::string& file) {
-    constexpr const char* words[] = {"-1",   "0",   "4294967296", "1e400",    "nan",   "\n", "\r",
-                                     "\\\n", "/",   "f",          "v ",       "3",     "#",  " ",
-                                     "list", "999", "end",        "\xFF\xFF", "facet", "-"};
+    constexpr const char* words[] = {"-1", "0", "4294967296", "1e400", "nan",  "\n",  "\r",  "\\\n",     "/",     "f",
+                                     "v ", "3", "#",          " ",     "list", "999", "end", "\xFF\xFF", "facet", "-"};
     const std::size_t at = below(file.size());
     switch (below(6)) {
       case 0:
@@ -65,7 +64,7 @@ void check_sound(const Document& document) {
   const std::size_t corners = mesh.corner_texcoords.size();
   REQUIRE((corners == 0 || corners == mesh.face_vertices.size()));
   for (const std::uint32_t id : mesh.corner_texcoords) {
-    REQUIRE((id == PolygonMesh::no_texcoord || 2 * std::size_t{id} + 1 < mesh.texcoords.size()));
+    REQUIRE((id == PolygonMesh::kNoTexcoord || 2 * std::size_t{id} + 1 < mesh.texcoords.size()));
   }
   REQUIRE(document.triangles().size() == 3 * (mesh.face_vertices.size() - 2 * mesh.face_count()));
 }

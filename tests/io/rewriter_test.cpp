@@ -13,8 +13,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 /// Streams the file through in pieces; each coordinate becomes half of it plus a quarter.
-std::string rewritten(FileFormat format, const std::string& file, std::size_t piece,
-                      Numbers* found = nullptr) {
+std::string rewritten(FileFormat format, const std::string& file, std::size_t piece, Numbers* found = nullptr) {
   Rewriter rewriter;
   rewriter.open(format);
   const Bytes bytes = test::bytes_of(file);
@@ -116,8 +115,7 @@ TEST_CASE("ply binary: coordinates become double, normals go, everything else st
     expected +=
         "property double x\r\nproperty double y\r\nproperty uchar red\r\n"
         "property double z\r\n" +
-        file.substr(file.find("element face"),
-                    file.find("end_header") + 12 - file.find("element face"));
+        file.substr(file.find("element face"), file.find("end_header") + 12 - file.find("element face"));
     const float xs[] = {0.0f, 1.1f, 1.0f, -0.0f};
     const double ys[] = {0, 0, 300, -7};
     for (int i = 0; i < 4; ++i) {
@@ -158,8 +156,7 @@ TEST_CASE("stl: normals are those of the new corners") {
   const float y = static_cast<float>(0.5 * static_cast<double>(1.1f) + 0.25);
   CHECK(binary.substr(0, 84) == test::samples()[6].file.substr(0, 84));
   CHECK(binary.substr(84, 50) ==
-        test::binary<float>({0, 0, 1, 0.25f, 0.25f, 0.25f, 0.75f, 0.25f, 0.25f, 0.25f, y, 0.25f}) +
-            "ab");
+        test::binary<float>({0, 0, 1, 0.25f, 0.25f, 0.25f, 0.75f, 0.25f, 0.25f, 0.25f, y, 0.25f}) + "ab");
   CHECK(binary.substr(184) == "tail");
 }
 
@@ -209,8 +206,7 @@ TEST_CASE("calls out of turn and wrong coordinates are refused") {
   REQUIRE(rewriter.push(test::bytes_of("1 2 3\n"), true).ok());
   CHECK(rewriter.push({}, true).message() == "push before the last piece was emitted");
   CHECK(rewriter.emit(Numbers{1, 2}, out).message() == "positions has 2 numbers; expected 3");
-  CHECK(rewriter.emit(Numbers{1, nan, 3}, out).message() ==
-        "positions[1] is NaN; expected a finite number");
+  CHECK(rewriter.emit(Numbers{1, nan, 3}, out).message() == "positions[1] is NaN; expected a finite number");
   CHECK(rewriter.emit(Numbers{1, 2, -HUGE_VAL}, out).message() ==
         "positions[2] is -Infinity; expected a finite number");
   CHECK(out.empty());
@@ -239,13 +235,13 @@ TEST_CASE("memory is bounded: a record beyond the limit is an error") {
   const Bytes piece(1 << 20, '#');
   Status status;
   std::size_t pushed = 0;
-  while (status.ok() && pushed < 2 * Rewriter::max_record) {
+  while (status.ok() && pushed < 2 * Rewriter::kMaxRecord) {
     status = rewriter.push(piece, false);
     pushed += piece.size();
     if (status.ok()) REQUIRE(rewriter.emit({}, out).ok());
   }
   CHECK(status.message() == "line 1: a record of more than 16777216 bytes");
-  CHECK(pushed <= Rewriter::max_record + piece.size());
+  CHECK(pushed <= Rewriter::kMaxRecord + piece.size());
 }
 
 TEST_CASE("a truncated stream is an error at its end, not before") {

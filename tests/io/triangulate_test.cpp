@@ -55,8 +55,7 @@ void check_covers(const std::vector<Eigen::Vector2d>& corners) {
 TEST_CASE("a convex polygon becomes a fan from its first corner") {
   CHECK(triangulate(polygon({{0, 0}, {1, 0}, {0, 1}})) == Triangles{0, 1, 2});
   CHECK(triangulate(polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}})) == Triangles{0, 1, 2, 0, 2, 3});
-  CHECK(triangulate(polygon({{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}})) ==
-        Triangles{0, 1, 2, 0, 2, 3, 0, 3, 4});
+  CHECK(triangulate(polygon({{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}})) == Triangles{0, 1, 2, 0, 2, 3, 0, 3, 4});
 }
 
 TEST_CASE("a concave quad is cut at its reflex corner") {
@@ -77,10 +76,8 @@ TEST_CASE("concave polygons are covered once") {
   }
   for (int i = 0; i < 30; ++i) comb.push_back({i, i % 2 ? 5.0 : 0.0});
   comb.insert(comb.end(), {{29, 6}, {0, 6}});
-  for (int i = 0; i <= 60; ++i)
-    spiral.push_back({(1 + i) * std::cos(0.3 * i), (1 + i) * std::sin(0.3 * i)});
-  for (int i = 60; i >= 0; --i)
-    spiral.push_back({(4 + i) * std::cos(0.3 * i), (4 + i) * std::sin(0.3 * i)});
+  for (int i = 0; i <= 60; ++i) spiral.push_back({(1 + i) * std::cos(0.3 * i), (1 + i) * std::sin(0.3 * i)});
+  for (int i = 60; i >= 0; --i) spiral.push_back({(4 + i) * std::cos(0.3 * i), (4 + i) * std::sin(0.3 * i)});
   check_covers(star);
   check_covers(comb);
   std::reverse(spiral.begin(), spiral.end());

@@ -20,8 +20,7 @@ BlockMatrix random_matrix(int block, Index nodes, int degree, std::uint32_t seed
   for (Index j = 0; j < nodes && nodes > 1; ++j) {
     for (int d = 0; d < degree / 2; ++d) {
       // Mostly near neighbours, as in a graph over a surface.
-      const Index k =
-          (j + 1 + random.below(d == 0 ? nodes - 1 : std::min<Index>(nodes - 1, 6))) % nodes;
+      const Index k = (j + 1 + random.below(d == 0 ? nodes - 1 : std::min<Index>(nodes - 1, 6))) % nodes;
       if (k != j) edges.insert({std::min(j, k), std::max(j, k)});
     }
   }
@@ -30,8 +29,7 @@ BlockMatrix random_matrix(int block, Index nodes, int degree, std::uint32_t seed
   for (double& v : matrix.off_diagonal) v = random.number();
   for (double& v : matrix.diagonal) v = random.number();
   for (Index j = 0; j < nodes; ++j) {
-    for (int i = 0; i < block; ++i)
-      matrix.diagonal_block(j)[i * block + i] = 4.0 * block * (degree + 1);
+    for (int i = 0; i < block; ++i) matrix.diagonal_block(j)[i * block + i] = 4.0 * block * (degree + 1);
   }
   return matrix;
 }
@@ -50,8 +48,7 @@ TEST_CASE("sparse Cholesky solves what a dense one solves") {
           SparseCholesky cholesky;
           REQUIRE(cholesky.analyze(matrix).ok());
           REQUIRE(cholesky.factorize(matrix).ok());
-          const Eigen::MatrixXd b =
-              test::Random(3).vector(nodes * block * columns).reshaped(nodes * block, columns);
+          const Eigen::MatrixXd b = test::Random(3).vector(nodes * block * columns).reshaped(nodes * block, columns);
           Eigen::MatrixXd x = b;
           cholesky.solve(x.data(), columns);
           const Eigen::MatrixXd oracle = dense(matrix).llt().solve(b);

@@ -54,32 +54,26 @@ const Letter letters[] = {
     {"O", [](double) { return 1.95 * pi; }, {}},
     {"U", [](double s) { return s > 0.35 && s < 0.65 ? -pi / 0.3 : 0.0; }, {0.35, 0.65}},
     {"L", [](double s) { return s > 0.6 && s < 0.75 ? -0.5 * pi / 0.15 : 0.0; }, {0.6, 0.75}},
-    {"e",
-     [](double s) { return s < 0.3 ? 0.0 : (s < 0.45 ? 0.5 * pi / 0.15 : 1.2 * pi / 0.55); },
-     {0.3, 0.45}},
+    {"e", [](double s) { return s < 0.3 ? 0.0 : (s < 0.45 ? 0.5 * pi / 0.15 : 1.2 * pi / 0.55); }, {0.3, 0.45}},
 };
 
 Stroke target_of(const Letter& letter) {
-  return test::curved(front_pixel(0.0, low), high - low,
-                      [&](double s) { return letter.curvature(s) / (high - low); });
+  return test::curved(front_pixel(0.0, low), high - low, [&](double s) { return letter.curvature(s) / (high - low); });
 }
 
 TEST_CASE("a target equal to the reference changes nothing") {
   for (const bool smooth : {false, true}) {
     SketchOptions options;
     options.smooth = smooth;
-    const Stroke wavy =
-        test::curved(front_pixel(0.0, low), high - low, [](double s) { return std::sin(9.0 * s); });
+    const Stroke wavy = test::curved(front_pixel(0.0, low), high - low, [](double s) { return std::sin(9.0 * s); });
     const auto sketch = test::sketch_on(rod(), wavy, options);
     REQUIRE(sketch->bend(wavy).ok());
-    CHECK((sketch->positions() - test::positions_of(rod())).cwiseAbs().maxCoeff() <=
-          1e-6 * test::diagonal(rod()));
+    CHECK((sketch->positions() - test::positions_of(rod())).cwiseAbs().maxCoeff() <= 1e-6 * test::diagonal(rod()));
     // The same stroke moved is the same target.
     Stroke moved = wavy;
     moved.colwise() += Eigen::Vector2d(130.0, -75.0);
     REQUIRE(sketch->bend(moved).ok());
-    CHECK((sketch->positions() - test::positions_of(rod())).cwiseAbs().maxCoeff() <=
-          1e-6 * test::diagonal(rod()));
+    CHECK((sketch->positions() - test::positions_of(rod())).cwiseAbs().maxCoeff() <= 1e-6 * test::diagonal(rod()));
   }
 }
 
@@ -93,8 +87,7 @@ TEST_CASE("a cylinder bent into letters keeps length and volume and does not fol
       REQUIRE(sketch->bend(target_of(letter)).ok());
       const Points bent = sketch->positions();
       CHECK(length_of_axis(bent) == doctest::Approx(1.0).epsilon(0.01));
-      const Quality quality =
-          measure_quality(sketch->shape(), test::point_positions(*sketch), false);
+      const Quality quality = measure_quality(sketch->shape(), test::point_positions(*sketch), false);
       CHECK(*quality.volume == doctest::Approx(1.0).epsilon(0.01));
       CHECK(quality.folds == 0);  // kappa r stays below 0.9
     }
@@ -114,14 +107,13 @@ TEST_CASE("a bent fibre stretches by 1 - kappa r, on both sides of the curve") {
     double worst = 0.0;
     for (int j = 0; j + 1 < along; ++j) {
       const double s = ((j + 0.5) / (along - 1) - low) / (high - low);
-      const bool near_jump = std::any_of(jumps.begin(), jumps.end(),
-                                         [&](double jump) { return std::abs(s - jump) < 0.04; });
+      const bool near_jump =
+          std::any_of(jumps.begin(), jumps.end(), [&](double jump) { return std::abs(s - jump) < 0.04; });
       if (s < 0.0 || s > 1.0 || near_jump) continue;
       const double kappa = letter.curvature(s) / (high - low);
       for (int i = 0; i < around; ++i) {
         const double x = radius * std::cos(2 * pi * i / around);
-        const double stretch =
-            (bent.col((j + 1) * around + i) - bent.col(j * around + i)).norm() * (along - 1);
+        const double stretch = (bent.col((j + 1) * around + i) - bent.col(j * around + i)).norm() * (along - 1);
         worst = std::max(worst, std::abs(stretch / (1.0 + kappa * x) - 1.0));
       }
     }
@@ -190,8 +182,7 @@ TEST_CASE("the turning control adds F(s) - s radians a unit of s, whatever the s
   const std::vector<Profile::Point> points{{0.0, 2.0}, {1.0, 3.0}};
   const Profile offset = *Profile::create(points, "turning");
   for (const double end : {0.3, high}) {
-    const auto sketch =
-        test::sketch_on(rod(), test::straight(front_pixel(0.0, low), front_pixel(0.0, end)));
+    const auto sketch = test::sketch_on(rod(), test::straight(front_pixel(0.0, low), front_pixel(0.0, end)));
     REQUIRE(sketch->bend(test::straight(front_pixel(0.0, low), front_pixel(0.0, end))).ok());
     sketch->set_turning(offset);
     const SketchPose pose = sketch->pose();

@@ -47,16 +47,14 @@ TEST_CASE("the cut through bands of 30 faces is as cheap as the best of all") {
     const Triangles& triangles = shape->triangles();
     REQUIRE(triangles.cols() == 30);
     std::vector<CutEdge> edges;
-    for_each_edge(
-        triangles, triangles_of_points(triangles, 20),
-        [&](Index a, Index b, std::span<const Index> sharing) {
-          if (sharing.size() != 2) return;
-          const auto third = [&](Index t) { return triangles.col(t).sum() - a - b; };
-          // Corner order does not matter to the oracle: any costs do.
-          edges.push_back({sharing[0], sharing[1],
-                           cut_cost(points.col(a), points.col(b), points.col(third(sharing[0])),
-                                    points.col(third(sharing[1])))});
-        });
+    for_each_edge(triangles, triangles_of_points(triangles, 20), [&](Index a, Index b, std::span<const Index> sharing) {
+      if (sharing.size() != 2) return;
+      const auto third = [&](Index t) { return triangles.col(t).sum() - a - b; };
+      // Corner order does not matter to the oracle: any costs do.
+      edges.push_back(
+          {sharing[0], sharing[1],
+           cut_cost(points.col(a), points.col(b), points.col(third(sharing[0])), points.col(third(sharing[1])))});
+    });
     std::vector<Terminal> nodes(30, Terminal::none);
     for (Index t = 0; t < 10; t += 2) {
       nodes[t] = Terminal::source;

@@ -51,8 +51,7 @@ TEST_CASE("the smoothed parameters minimise eq. 9") {
 
   ParameterSmoother smoother(shape->points(), points, free, edges.ends);
   std::vector<double> u(free, 0.0);
-  const int passes =
-      smoother.solve({raw.data(), static_cast<std::size_t>(free)}, {pinned.data(), 20}, u);
+  const int passes = smoother.solve({raw.data(), static_cast<std::size_t>(free)}, {pinned.data(), 20}, u);
   CHECK(passes < 40);
   for (Index i = 0; i < free; ++i) CHECK(std::abs(u[i] - exact[i]) < 1e-6);
 }
@@ -104,9 +103,7 @@ TEST_CASE("the filter keeps straight and round strokes and takes noise") {
   for (Index i = 0; i < 61; ++i) {
     CHECK((kept.col(i) - Eigen::Vector2d(147.0 * i / 60, 100.0 + 196.0 * i / 60)).norm() < 1e-6);
   }
-  const auto worst = [](const Stroke& stroke) {
-    return (stroke.colwise().norm().array() - 150.0).abs().maxCoeff();
-  };
+  const auto worst = [](const Stroke& stroke) { return (stroke.colwise().norm().array() - 150.0).abs().maxCoeff(); };
   CHECK(nodes_for(round) == 90);  // almost 450 pixels in segments of at least 5
   CHECK(worst(filtered(round, 91)) < 0.02);
   CHECK(worst(filtered(noisy, 91)) < 0.7 * worst(noisy));

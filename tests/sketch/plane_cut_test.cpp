@@ -24,8 +24,7 @@ struct Cut {
   std::vector<Index> all;
   std::unique_ptr<PlaneCut> cut;
 
-  Cut(const test::Mesh& mesh, const Eigen::Vector3d& normal, double offset)
-      : shape(test::shape_of(mesh)) {
+  Cut(const test::Mesh& mesh, const Eigen::Vector3d& normal, double offset) : shape(test::shape_of(mesh)) {
     for (const auto& p : shape->points().colwise()) distance.push_back(normal.dot(p) - offset);
     all.resize(shape->triangles().cols());
     std::iota(all.begin(), all.end(), 0);
@@ -51,17 +50,14 @@ struct Cut {
     const Triangles part = shape->triangles()(Eigen::all, chosen);
     const Index points = static_cast<Index>(shape->points().cols());
     const Components found = connected_components(part, triangles_of_points(part, points));
-    return chosen.empty()
-               ? 0
-               : *std::max_element(found.of_triangle.begin(), found.of_triangle.end()) + 1;
+    return chosen.empty() ? 0 : *std::max_element(found.of_triangle.begin(), found.of_triangle.end()) + 1;
   }
 
   /// The sum of the angles by which the boundary between the sides turns.
   double turning(const std::vector<CutSide>& sides) const {
     std::map<Index, std::vector<Index>> next;
     const Triangles& triangles = shape->triangles();
-    for_each_edge(triangles,
-                  triangles_of_points(triangles, static_cast<Index>(shape->points().cols())),
+    for_each_edge(triangles, triangles_of_points(triangles, static_cast<Index>(shape->points().cols())),
                   [&](Index a, Index b, std::span<const Index> sharing) {
                     if (sharing.size() == 2 && sides[sharing[0]] != sides[sharing[1]]) {
                       next[a].push_back(b);
@@ -93,9 +89,8 @@ TEST_CASE("a torus is cut along both loops, whichever is nearest") {
 
 /// A slab with two holes: genus 2, and three bars across the middle.
 test::Mesh double_torus() {
-  return test::cells(15, 9, 3, [](int x, int y, int) {
-    return !(y >= 3 && y < 6 && ((x >= 3 && x < 6) || (x >= 9 && x < 12)));
-  });
+  return test::cells(15, 9, 3,
+                     [](int x, int y, int) { return !(y >= 3 && y < 6 && ((x >= 3 && x < 6) || (x >= 9 && x < 12))); });
 }
 
 TEST_CASE("genus 2: loops are dropped only while the two parts stay two") {
@@ -128,15 +123,14 @@ TEST_CASE("genus 2: loops are dropped only while the two parts stay two") {
 
 TEST_CASE("other components stay outside") {
   const test::Mesh two =
-      test::both(test::sphere(3),
-                 test::transformed(test::sphere(3), 1.0, Eigen::Matrix3d::Identity(), {5, 0, 0}));
+      test::both(test::sphere(3), test::transformed(test::sphere(3), 1.0, Eigen::Matrix3d::Identity(), {5, 0, 0}));
   Cut cut(two, Eigen::Vector3d::UnitY(), 0.01);
   REQUIRE(cut.cut->loops().size() == 2);
   cut.cut->separate(cut.nearest({1, 0, 0}));
   const std::vector<CutSide> sides = cut.cut->sides(0.1);
-  const Components components = connected_components(
-      cut.shape->triangles(),
-      triangles_of_points(cut.shape->triangles(), static_cast<Index>(cut.shape->points().cols())));
+  const Components components =
+      connected_components(cut.shape->triangles(),
+                           triangles_of_points(cut.shape->triangles(), static_cast<Index>(cut.shape->points().cols())));
   for (const Index t : cut.all) {
     CHECK((sides[t] == CutSide::outside) == (components.of_triangle[t] == 1));
   }
@@ -147,8 +141,7 @@ TEST_CASE("the cheapest boundary turns less than the plane's") {
     test::Mesh mesh = test::potato(4);
     test::Random random(seed);
     const Eigen::Vector3d normal =
-        (Eigen::Vector3d::UnitX() +
-         0.4 * Eigen::Vector3d(random.number(), random.number(), random.number()))
+        (Eigen::Vector3d::UnitX() + 0.4 * Eigen::Vector3d(random.number(), random.number(), random.number()))
             .normalized();
     Cut cut(mesh, normal, 0.2);
     cut.cut->separate(0);

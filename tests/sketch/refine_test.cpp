@@ -25,8 +25,8 @@ test::Mesh seamed_tube() {
   for (int j = 0; j < along; ++j) {
     for (int i = 0; i <= around; ++i) {
       const double a = 2 * pi * (i % around) / around;
-      mesh.positions.insert(mesh.positions.end(), {0.05 * std::cos(a), 0.05 * std::sin(a),
-                                                   static_cast<double>(j) / (along - 1)});
+      mesh.positions.insert(mesh.positions.end(),
+                            {0.05 * std::cos(a), 0.05 * std::sin(a), static_cast<double>(j) / (along - 1)});
     }
   }
   for (std::uint32_t j = 0; j + 1 < along; ++j) {
@@ -42,8 +42,7 @@ Stroke reference() { return test::straight(front_pixel(0.0, 0.1), front_pixel(0.
 
 /// Straight, then half a turn over a fifth of the way, then straight; twice as long.
 Stroke long_hook() {
-  return test::curved(front_pixel(0.0, 0.1), 1.6,
-                      [](double s) { return s > 0.4 && s < 0.6 ? pi / (0.2 * 1.6) : 0.0; });
+  return test::curved(front_pixel(0.0, 0.1), 1.6, [](double s) { return s > 0.4 && s < 0.6 ? pi / (0.2 * 1.6) : 0.0; });
 }
 
 Eigen::Vector3d point_of(const StateTable& table, Index i) {
@@ -105,8 +104,8 @@ TEST_CASE("refinement splits what is stretched and bent, carries attributes, and
     const double stretch = (bent.col(a) - bent.col(b)).norm() / (rest.col(a) - rest.col(b)).norm();
     if (stretch <= 1.5) continue;
     ++stretched;
-    const Eigen::Vector3d middle = carried(state, 0.5 * (rest.col(a) + rest.col(b)),
-                                           0.5 * (s[a] + s[b]), 0.5 * (angles[a] + angles[b]));
+    const Eigen::Vector3d middle =
+        carried(state, 0.5 * (rest.col(a) + rest.col(b)), 0.5 * (s[a] + s[b]), 0.5 * (angles[a] + angles[b]));
     const Eigen::Vector3d u = bent.col(a) - middle, v = bent.col(b) - middle;
     CHECK(std::atan2(u.cross(v).norm(), u.dot(v)) >= pi - pi / 24 - 1e-9);
   }
@@ -120,8 +119,7 @@ TEST_CASE("refinement splits what is stretched and bent, carries attributes, and
   // Attributes: the middle of the parents'. Rest positions are one, copies at the seam stay one.
   std::vector<double> carried_rest = mesh.positions;
   refined.carry(carried_rest, 3);
-  CHECK((Eigen::Map<const Points>(carried_rest.data(), 3, n + added) - rest).cwiseAbs().maxCoeff() <
-        1e-15);
+  CHECK((Eigen::Map<const Points>(carried_rest.data(), 3, n + added) - rest).cwiseAbs().maxCoeff() < 1e-15);
   CHECK(refined.triangle_parents.size() == refined.triangles.size() / 3);
   const std::vector<double> all(rest.data(), rest.data() + rest.size());
   const auto welded = Shape::create(all, refined.triangles);

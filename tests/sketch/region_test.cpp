@@ -26,8 +26,7 @@ const test::Mesh& man() {
       const bool leg = z < 12 && side >= 1 && side < 5;
       return trunk || arm || leg;
     });
-    return test::transformed(cells, 1.0 / 32, Eigen::Matrix3d::Identity(),
-                             {-15.0 / 32, -2.0 / 32, 0.0});
+    return test::transformed(cells, 1.0 / 32, Eigen::Matrix3d::Identity(), {-15.0 / 32, -2.0 / 32, 0.0});
   }();
   return mesh;
 }
@@ -70,8 +69,7 @@ TEST_CASE("the region is the limb drawn on, its tip follows as one, the rest sta
 TEST_CASE("three reference strokes, one beside the silhouette, give one pose") {
   std::vector<Eigen::Vector3d> tips;
   for (const double z : {0.81, 0.86, 0.95}) {
-    const auto sketch =
-        test::sketch_on(man(), test::straight(front_pixel(0.2, z), front_pixel(0.4, z)));
+    const auto sketch = test::sketch_on(man(), test::straight(front_pixel(0.2, z), front_pixel(0.4, z)));
     Stroke target = arm_bent();
     REQUIRE(sketch->bend(target).ok());
     const std::set<Index> hand = with_label(*sketch, 2);
@@ -96,8 +94,7 @@ TEST_CASE("three reference strokes, one beside the silhouette, give one pose") {
 
 TEST_CASE("a stroke that starts over the body still takes the limb alone") {
   // The plane through its start runs through both legs and the trunk.
-  const auto sketch =
-      test::sketch_on(man(), test::straight(front_pixel(0.1, 0.42), front_pixel(0.1, 0.08)));
+  const auto sketch = test::sketch_on(man(), test::straight(front_pixel(0.1, 0.42), front_pixel(0.1, 0.08)));
   const Points rest = test::positions_of(man());
   const std::vector<Index> labels = sketch->labels();
   for (Index v = 0; v < man().vertices(); ++v) {
@@ -114,8 +111,7 @@ TEST_CASE("partitions become rigid parts of their own") {
     options.partitions.push_back(test::straight(front_pixel(x, 0.95), front_pixel(x, 0.7)));
   }
   const auto sketch = test::sketch_on(man(), spine, options);
-  REQUIRE(
-      sketch->bend(test::curved(front_pixel(0.0, 0.42), 0.55, [](double) { return 2.0; })).ok());
+  REQUIRE(sketch->bend(test::curved(front_pixel(0.0, 0.42), 0.55, [](double) { return 2.0; })).ok());
   const Points rest = test::positions_of(man()), bent = sketch->positions();
   const std::vector<Index> labels = sketch->labels();
   std::set<Index> arms;
@@ -137,8 +133,8 @@ TEST_CASE("partitions become rigid parts of their own") {
 
 TEST_CASE("a mirrored edit is symmetric") {
   // A horn to each side; the left one has the right one's triangles, mirrored.
-  const test::Mesh right = test::transformed(test::cylinder(24, 60, 0.05), 1.0,
-                                             Eigen::Matrix3d::Identity(), {0.3, 0, 0});
+  const test::Mesh right =
+      test::transformed(test::cylinder(24, 60, 0.05), 1.0, Eigen::Matrix3d::Identity(), {0.3, 0, 0});
   test::Mesh left = right;
   for (std::size_t i = 0; i < left.positions.size(); i += 3) left.positions[i] *= -1.0;
   for (std::size_t i = 0; i < left.triangles.size(); i += 3) {
@@ -147,8 +143,7 @@ TEST_CASE("a mirrored edit is symmetric") {
   SketchOptions options;
   options.mirror = Plane{{0, 0, 0}, {2, 0, 0}};
   const auto sketch =
-      test::sketch_on(test::both(right, left),
-                      test::straight(front_pixel(0.3, 0.2), front_pixel(0.3, 0.8)), options);
+      test::sketch_on(test::both(right, left), test::straight(front_pixel(0.3, 0.2), front_pixel(0.3, 0.8)), options);
   REQUIRE(sketch->bend(test::curved(front_pixel(0.3, 0.2), 0.6, [](double) { return 2.0; })).ok());
   REQUIRE(sketch->twist(0.7).ok());
   const Points rest = sketch->rest(), bent = sketch->positions();
@@ -161,8 +156,8 @@ TEST_CASE("a mirrored edit is symmetric") {
   CHECK(*std::max_element(labels.begin(), labels.end()) == 3);
 
   options.mirror = Plane{{0.3, 0, 0}, {1, 0, 0}};
-  const Result<std::unique_ptr<Sketch>> overlapping = Sketch::create(
-      test::shape_of(man()), *Camera::create(test::front_view()), over_arm(), options);
+  const Result<std::unique_ptr<Sketch>> overlapping =
+      Sketch::create(test::shape_of(man()), *Camera::create(test::front_view()), over_arm(), options);
   CHECK(overlapping.status().message().find("mirror reflects the region onto itself") == 0);
 }
 
@@ -228,8 +223,7 @@ TEST_CASE("bad arguments are named and nothing is built") {
   CHECK(message(broken).find("reference[3] is not a pixel") == 0);
   SketchOptions options;
   options.partitions = {test::straight(front_pixel(-0.4, 0.3), front_pixel(-0.4, 0.2))};
-  CHECK(message(over_arm(), options) ==
-        "partitions[0] cuts nothing off the region; expected a line across it");
+  CHECK(message(over_arm(), options) == "partitions[0] cuts nothing off the region; expected a line across it");
   options = {};
   options.labels.assign(3, 1);
   CHECK(message(over_arm(), options).find("labels has length 3") == 0);

@@ -22,8 +22,7 @@ Mesh cylinder(int around, int along, double radius) {
 
 Mesh cells(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   const auto holds = [&](const Eigen::Vector3i& c) {
-    return (c.array() >= 0).all() && c.x() < nx && c.y() < ny && c.z() < nz &&
-           solid(c.x(), c.y(), c.z());
+    return (c.array() >= 0).all() && c.x() < nx && c.y() < ny && c.z() < nz && solid(c.x(), c.y(), c.z());
   };
   Mesh mesh;
   for (int i = 0; i < nx * ny * nz; ++i) {
@@ -68,8 +67,8 @@ Stroke straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int samples)
   return stroke;
 }
 
-Stroke curved(const Eigen::Vector2d& start, double length,
-              const std::function<double(double)>& curvature, int samples) {
+Stroke curved(const Eigen::Vector2d& start, double length, const std::function<double(double)>& curvature,
+              int samples) {
   Stroke stroke(2, samples);
   stroke.col(0) = start;
   double heading = std::numbers::pi / 2;
@@ -78,19 +77,17 @@ Stroke curved(const Eigen::Vector2d& start, double length,
     const double turn = step * curvature((i - 0.5) / (samples - 1));
     const double middle = heading + 0.5 * turn;
     // Pixels run downwards.
-    stroke.col(i) =
-        stroke.col(i - 1) + 500.0 * step * Eigen::Vector2d(std::cos(middle), -std::sin(middle));
+    stroke.col(i) = stroke.col(i - 1) + 500.0 * step * Eigen::Vector2d(std::cos(middle), -std::sin(middle));
     heading += turn;
   }
   return stroke;
 }
 
-std::unique_ptr<Sketch> sketch_on(const Mesh& mesh, const Stroke& reference,
-                                  const SketchOptions& options, const CameraOptions& camera) {
+std::unique_ptr<Sketch> sketch_on(const Mesh& mesh, const Stroke& reference, const SketchOptions& options,
+                                  const CameraOptions& camera) {
   Result<Camera> seen = Camera::create(camera);
   REQUIRE_MESSAGE(seen.ok(), seen.status().message());
-  Result<std::unique_ptr<Sketch>> sketch =
-      Sketch::create(shape_of(mesh), *seen, reference, options);
+  Result<std::unique_ptr<Sketch>> sketch = Sketch::create(shape_of(mesh), *seen, reference, options);
   REQUIRE_MESSAGE(sketch.ok(), sketch.status().message());
   return std::move(*sketch);
 }
@@ -99,9 +96,7 @@ Points point_positions(const Sketch& sketch) {
   return sketch.positions()(Eigen::all, sketch.shape().vertex_of_point());
 }
 
-Points positions_of(const Mesh& mesh) {
-  return Eigen::Map<const Points>(mesh.positions.data(), 3, mesh.vertices());
-}
+Points positions_of(const Mesh& mesh) { return Eigen::Map<const Points>(mesh.positions.data(), 3, mesh.vertices()); }
 
 double diagonal(const Mesh& mesh) {
   const Points points = positions_of(mesh);

@@ -26,11 +26,10 @@ Eigen::Vector2d front_pixel(double x, double z);
 Stroke straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int samples = 100);
 /// A stroke of length 500 `length` px from `start`, upwards at first, with `curvature` (1 / unit,
 /// to the left) over its normalised length.
-Stroke curved(const Eigen::Vector2d& start, double length,
-              const std::function<double(double)>& curvature, int samples = 1000);
+Stroke curved(const Eigen::Vector2d& start, double length, const std::function<double(double)>& curvature,
+              int samples = 1000);
 
-std::unique_ptr<Sketch> sketch_on(const Mesh& mesh, const Stroke& reference,
-                                  const SketchOptions& options = {},
+std::unique_ptr<Sketch> sketch_on(const Mesh& mesh, const Stroke& reference, const SketchOptions& options = {},
                                   const CameraOptions& camera = front_view());
 
 /// Points of the shape, deformed.

@@ -61,8 +61,7 @@ TEST_CASE("twist turns linearly in s, right-handed, and keeps the sections") {
     }
     const State state = sketch->save();
     for (Index v = 0; v < around * along; ++v) {
-      CHECK(state.find("angles")->data[v] ==
-            doctest::Approx(labels[v] == 0 ? 0.0 : s[v] * angle).epsilon(1e-6));
+      CHECK(state.find("angles")->data[v] == doctest::Approx(labels[v] == 0 ? 0.0 : s[v] * angle).epsilon(1e-6));
     }
     for (int ring = 0; ring < along; ++ring) {
       CHECK(area(twisted, ring) == doctest::Approx(area(rest, ring)).epsilon(0.001));
@@ -109,33 +108,28 @@ TEST_CASE("a rigid part keeps its size when the region is scaled") {
 }
 
 TEST_CASE("without two hits at every node twist and scale are refused and nothing changes") {
-  const auto beside =
-      plain(test::straight(front_pixel(0.08, 0.1), front_pixel(0.0, 0.9)), test::front_view());
+  const auto beside = plain(test::straight(front_pixel(0.08, 0.1), front_pixel(0.0, 0.9)), test::front_view());
   const Status twisted = beside->twist(1.0);
   CHECK(twisted.code() == ErrorCode::invalid_option);
   CHECK(twisted.message().find("reference meets the shape nowhere at pixel (540.") == 0);
   CHECK(beside->positions() == test::positions_of(rod()));
   CHECK(beside->bend(reference()).ok());
 
-  const test::Mesh sheet =
-      test::transformed(test::plane_grid(30, 30), 1.0,
-                        Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix());
-  const auto flat =
-      test::sketch_on(sheet, test::straight(front_pixel(0.5, 0.2), front_pixel(0.5, 0.8)));
+  const test::Mesh sheet = test::transformed(test::plane_grid(30, 30), 1.0,
+                                             Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix());
+  const auto flat = test::sketch_on(sheet, test::straight(front_pixel(0.5, 0.2), front_pixel(0.5, 0.8)));
   CHECK(flat->twist(1.0).message().find("only once") != std::string::npos);
   CHECK_FALSE(flat->set_scale(Profile::constant(2.0)).ok());
   // Two sheets back to back at one place are one hit.
   test::Mesh copies = test::both(sheet, sheet);
-  const auto doubled =
-      test::sketch_on(copies, test::straight(front_pixel(0.5, 0.2), front_pixel(0.5, 0.8)));
+  const auto doubled = test::sketch_on(copies, test::straight(front_pixel(0.5, 0.2), front_pixel(0.5, 0.8)));
   CHECK_FALSE(doubled->twist(1.0).ok());
 }
 
 TEST_CASE("bad angles and factors are named") {
   const auto sketch = plain(reference(), test::front_view());
   CHECK(sketch->twist(std::nan("")).message() == "twist is not finite; expected an angle");
-  CHECK(sketch->set_scale(Profile::constant(0.0)).message() ==
-        "scale is 0 at s = 0; expected factors above 0");
+  CHECK(sketch->set_scale(Profile::constant(0.0)).message() == "scale is 0 at s = 0; expected factors above 0");
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 
 namespace pliant::test {
 
-std::vector<Index> pick(const Mesh& mesh,
-                        const std::function<bool(const Eigen::Vector3d&)>& wanted) {
+std::vector<Index> pick(const Mesh& mesh, const std::function<bool(const Eigen::Vector3d&)>& wanted) {
   std::vector<Index> picked;
   for (Index v = 0; v < mesh.vertices(); ++v) {
     if (wanted(mesh.vertex(v))) picked.push_back(v);
@@ -23,8 +22,7 @@ HandleId fix_bottom_grab_top(Deformer& deformer, const Mesh& mesh) {
   }
   const double tenth = 0.1 * (high - low);
   REQUIRE(deformer.set_fixed(pick(mesh, [&](const auto& p) { return p.z() <= low + tenth; })).ok());
-  const auto handle =
-      deformer.add_handle(pick(mesh, [&](const auto& p) { return p.z() >= high - tenth; }));
+  const auto handle = deformer.add_handle(pick(mesh, [&](const auto& p) { return p.z() >= high - tenth; }));
   REQUIRE(handle.ok());
   return *handle;
 }

@@ -11,8 +11,7 @@
 namespace pliant::test {
 
 /// Vertices of a mesh that a predicate picks.
-std::vector<Index> pick(const Mesh& mesh,
-                        const std::function<bool(const Eigen::Vector3d&)>& wanted);
+std::vector<Index> pick(const Mesh& mesh, const std::function<bool(const Eigen::Vector3d&)>& wanted);
 
 /// Fixes the lowest tenth (by z) and makes the highest tenth a handle; returns its id.
 HandleId fix_bottom_grab_top(Deformer& deformer, const Mesh& mesh);

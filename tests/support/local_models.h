@@ -12,8 +12,7 @@ namespace pliant::test {
 
 /// With all rotations at zero the half gradient at x is the matrix times x, to a relative
 /// `tolerance`; the matrix's edges are sorted.
-inline void check_matrix_is_second_derivative(const LocalModel& model, const Points& x,
-                                              double tolerance) {
+inline void check_matrix_is_second_derivative(const LocalModel& model, const Points& x, double tolerance) {
   const BlockMatrix matrix = model.matrix();
   CHECK(std::is_sorted(matrix.edges.begin(), matrix.edges.end()));
   Points half_gradient;

@@ -9,8 +9,8 @@
 namespace pliant::test {
 namespace {
 
-std::unique_ptr<Deformer> embedded_graph(std::shared_ptr<const Shape> shape,
-                                         EmbeddedGraphSolver solver, NodeSampling sampling) {
+std::unique_ptr<Deformer> embedded_graph(std::shared_ptr<const Shape> shape, EmbeddedGraphSolver solver,
+                                         NodeSampling sampling) {
   EmbeddedGraphOptions options;
   options.node_count = 60;
   options.solver = solver;
@@ -42,14 +42,9 @@ std::vector<Method> methods() {
   // Eq. 5 of the embedded graph is not isotropic: 2 % for other angles than quarter turns.
   return {
       {"embedded-graph",
-       [](auto shape) {
-         return embedded_graph(shape, EmbeddedGraphSolver::automatic, NodeSampling::surface);
-       },
-       0.02},
+       [](auto shape) { return embedded_graph(shape, EmbeddedGraphSolver::automatic, NodeSampling::surface); }, 0.02},
       {"embedded-graph, gauss-newton",
-       [](auto shape) {
-         return embedded_graph(shape, EmbeddedGraphSolver::gauss_newton, NodeSampling::surface);
-       },
+       [](auto shape) { return embedded_graph(shape, EmbeddedGraphSolver::gauss_newton, NodeSampling::surface); },
        0.02},
       arap("arap", {}),
       arap("arap, rims", {.energy = ArapEnergy::spokes_and_rims}),
@@ -58,8 +53,7 @@ std::vector<Method> methods() {
       // The paper's lambda: the diagonal in `stretch` is that of the bounding box, which turning
       // the scene changes.
       edge_material("edge-material", {.lambda = 3e-3}),
-      edge_material("edge-material, field",
-                    {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
+      edge_material("edge-material, field", {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
   };
 }
 

@@ -14,17 +14,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void add(Mesh& mesh, const Eigen::Vector3d& p) {
-  mesh.positions.insert(mesh.positions.end(), {p.x(), p.y(), p.z()});
-}
+void add(Mesh& mesh, const Eigen::Vector3d& p) { mesh.positions.insert(mesh.positions.end(), {p.x(), p.y(), p.z()}); }
 
 /// Two triangles for each cell of a grid of vertices; wrapped directions join the last to the
 /// first.
-void add_grid_triangles(Mesh& mesh, int columns, int rows, bool wrap_columns, bool wrap_rows,
-                        std::uint32_t first = 0) {
-  const auto id = [&](int i, int j) {
-    return first + static_cast<std::uint32_t>((j % rows) * columns + i % columns);
-  };
+void add_grid_triangles(Mesh& mesh, int columns, int rows, bool wrap_columns, bool wrap_rows, std::uint32_t first = 0) {
+  const auto id = [&](int i, int j) { return first + static_cast<std::uint32_t>((j % rows) * columns + i % columns); };
   for (int j = 0; j + !wrap_rows < rows; ++j) {
     for (int i = 0; i + !wrap_columns < columns; ++i) {
       mesh.triangles.insert(mesh.triangles.end(), {id(i, j), id(i + 1, j), id(i + 1, j + 1)});
@@ -75,8 +70,7 @@ Mesh plane_grid(int columns, int rows, double width, double height) {
 Mesh bumpy_plane(int n, int periods, double amplitude) {
   const double frequency = 2 * pi * periods;
   return mapped(plane_grid(n, n), [&](const Eigen::Vector3d& p) {
-    return Eigen::Vector3d(p.x(), p.y(),
-                           amplitude * std::sin(frequency * p.x()) * std::sin(frequency * p.y()));
+    return Eigen::Vector3d(p.x(), p.y(), amplitude * std::sin(frequency * p.x()) * std::sin(frequency * p.y()));
   });
 }
 
@@ -96,9 +90,8 @@ Mesh sphere(int subdivisions) {
   const double g = std::numbers::phi;
   Mesh mesh{{-1, g,  0,  1, g, 0,  -1, -g, 0,  1, -g, 0, 0,  -1, g,  0,  1, g,
              0,  -1, -g, 0, 1, -g, g,  0,  -1, g, 0,  1, -g, 0,  -1, -g, 0, 1},
-            {0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
-             4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
-             6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1}};
+            {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
+             3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1}};
   for (int round = 0; round < subdivisions; ++round) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -206,18 +199,15 @@ Mesh renumbered(const Mesh& mesh, std::uint32_t seed, std::vector<Index>* new_of
   return result;
 }
 
-Mesh transformed(const Mesh& mesh, double scale, const Eigen::Matrix3d& rotation,
-                 const Eigen::Vector3d& translation) {
-  return mapped(mesh, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-    return scale * (rotation * p) + translation;
-  });
+Mesh transformed(const Mesh& mesh, double scale, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+  return mapped(mesh,
+                [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return scale * (rotation * p) + translation; });
 }
 
 Mesh potato(int subdivisions) {
   return mapped(sphere(subdivisions), [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     const double bump = std::exp(-8.0 * (p - Eigen::Vector3d(0.48, 0.6, 0.64)).squaredNorm());
-    return (1.0 + 0.5 * bump + 0.1 * p.x() * p.y()) *
-           p.cwiseProduct(Eigen::Vector3d(1.7, 1.0, 0.6));
+    return (1.0 + 0.5 * bump + 0.1 * p.x() * p.y()) * p.cwiseProduct(Eigen::Vector3d(1.7, 1.0, 0.6));
   });
 }
 

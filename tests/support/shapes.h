@@ -53,8 +53,7 @@ Mesh both(const Mesh& a, const Mesh& b);
 Mesh renumbered(const Mesh& mesh, std::uint32_t seed, std::vector<Index>* new_of_old = nullptr);
 
 /// x -> scale * rotation * x + translation.
-Mesh transformed(const Mesh& mesh, double scale,
-                 const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity(),
+Mesh transformed(const Mesh& mesh, double scale, const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity(),
                  const Eigen::Vector3d& translation = Eigen::Vector3d::Zero());
 
 /// A closed shape without any symmetry: a sphere with unequal axes and a bump.

@@ -1,16 +1,16 @@
 // pliant deform: an edit script over a shape, and the files that come of it.
 
 import { open, readFile } from "node:fs/promises";
-import type { Core } from "../core.js";
-import { PliantError } from "../errors.js";
+import type { Core } from "../boundary/core.js";
+import { PliantError } from "../boundary/errors.js";
 import { readMethod } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
-import { readScript, type ScriptPlan } from "../script/read.js";
-import { type FinishedEdit, reportOf, runFrames } from "../script/run.js";
-import type { EditProgress, EditReport } from "../script/types.js";
-import { extentOf, type Shape } from "../shape.js";
+import { readScript, type ScriptPlan } from "../edit/read.js";
+import { type FinishedEdit, reportOf, runFrames } from "../edit/run.js";
+import type { EditProgress, EditReport } from "../edit/types.js";
+import { extentOf, type Shape } from "../shape/shape.js";
 import { Failure, onFile } from "./failure.js";
-import { ShapeRewriter } from "./io.js";
+import { ShapeRewriter } from "../io/files.js";
 import { parseJson } from "./json.js";
 import type { Outputs } from "./outputs.js";
 import { Progress } from "./progress.js";

@@ -1,6 +1,6 @@
 // What a user of the command did not get, and why: one line, exit code 2.
 
-import { PliantError } from "../errors.js";
+import { PliantError } from "../boundary/errors.js";
 
 export class Failure extends Error {}
 

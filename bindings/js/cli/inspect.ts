@@ -1,7 +1,7 @@
 // pliant inspect and pliant compare: what a shape is made of, and what a deformation did to it.
 
 import type { Pliant } from "../pliant.js";
-import type { Quality } from "../quality.js";
+import type { Quality } from "../shape/quality.js";
 import { Failure, onFile } from "./failure.js";
 import { readShape } from "./shapes.js";
 import type { Invocation } from "./usage.js";

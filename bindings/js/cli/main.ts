@@ -3,9 +3,9 @@
 import { readFile } from "node:fs/promises";
 import createModule from "#wasm/pliant.mjs";
 import version from "#version";
-import { Core } from "../core.js";
+import { Core } from "../boundary/core.js";
 import { Pliant } from "../pliant.js";
-import { instantiate } from "../wasm.js";
+import { instantiate } from "../boundary/wasm.js";
 import { deform } from "./deform.js";
 import { Failure } from "./failure.js";
 import { compare, inspect } from "./inspect.js";

@@ -3,10 +3,10 @@
 import { readFile } from "node:fs/promises";
 import { extname } from "node:path";
 import { Failure, onFile } from "./failure.js";
-import { Glb, glbOf } from "./glb.js";
-import type { Refinement } from "../sketch.js";
-import { type Mesh, ShapeDocument } from "./io.js";
-import { refinedMesh } from "./refined.js";
+import { Glb, glbOf } from "../io/glb.js";
+import type { Refinement } from "../deform/sketch.js";
+import { type Mesh, ShapeDocument } from "../io/files.js";
+import { refinedMesh } from "../io/refined.js";
 
 /** Formats that pliant-io knows, and that can be passed through in pieces. */
 export const streamable = ["obj", "ply", "off", "stl", "xyz"];

@@ -1,7 +1,7 @@
 // arap: Sorkine, Alexa, As-Rigid-As-Possible Surface Modeling (2007).
 
-import { choice, fraction, orNull, positive } from "../check.js";
-import { insideOf } from "../shape.js";
+import { choice, fraction, orNull, positive } from "../boundary/check.js";
+import { insideOf } from "../shape/shape.js";
 import type { Method, Options } from "./method.js";
 
 /** Options of `arap`. All but the method may change at any time, by `setOptions`. */

@@ -1,10 +1,10 @@
 // edge-material: material-aware edges, which keep their lengths and the angles between their triangles.
 
-import { choice, direction, fields, filled, fraction, isList, notNegative, orNull, type Place, points, toSpace, vector, vertexIds } from "../check.js";
-import type { Core } from "../core.js";
-import type { RawScratch } from "../raw.js";
-import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../selection.js";
-import { insideOf, type Shape } from "../shape.js";
+import { choice, direction, fields, filled, fraction, isList, notNegative, orNull, type Place, points, toSpace, vector, vertexIds } from "../boundary/check.js";
+import type { Core } from "../boundary/core.js";
+import type { RawScratch } from "../boundary/raw.js";
+import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../shape/selection.js";
+import { insideOf, type Shape } from "../shape/shape.js";
 import type { Method, OptionReader, Options } from "./method.js";
 
 /** Options of `edge-material`. All but the method may change at any time, by `setOptions`. */

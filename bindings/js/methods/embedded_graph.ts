@@ -1,8 +1,8 @@
 // embedded-graph: Sumner, Schmid, Pauly, Embedded Deformation for Shape Manipulation (2007).
 
-import { choice, filled, flag, integer, type Place, points, positive, toSpace } from "../check.js";
-import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../selection.js";
-import { insideOf } from "../shape.js";
+import { choice, filled, flag, integer, type Place, points, positive, toSpace } from "../boundary/check.js";
+import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../shape/selection.js";
+import { insideOf } from "../shape/shape.js";
 import type { Method } from "./method.js";
 
 /** Options of `embedded-graph`. */

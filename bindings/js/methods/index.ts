@@ -1,6 +1,6 @@
 // The methods of the contract, and those this build has.
 
-import { type Place } from "../check.js";
+import { type Place } from "../boundary/check.js";
 import { arap, type ArapOptions } from "./arap.js";
 import { edgeMaterial, type EdgeMaterialOptions, type MaterialField } from "./edge_material.js";
 import { embeddedGraph, type EmbeddedGraphOptions } from "./embedded_graph.js";

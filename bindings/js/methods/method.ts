@@ -1,11 +1,11 @@
 // What a method tells the rest of the package about itself: its options and how it is built. All
 // else goes through the one Deformer.
 
-import { type Fields, fields, type Place } from "../check.js";
-import type { Core } from "../core.js";
-import type { RawDeformer, RawStatus } from "../raw.js";
-import type { Extent } from "../selection.js";
-import type { Shape } from "../shape.js";
+import { type Fields, fields, type Place } from "../boundary/check.js";
+import type { Core } from "../boundary/core.js";
+import type { RawDeformer, RawStatus } from "../boundary/raw.js";
+import type { Extent } from "../shape/selection.js";
+import type { Shape } from "../shape/shape.js";
 
 /** A checked option, whatever it is; `build` knows. */
 export type Options = Readonly<Record<string, unknown>>;

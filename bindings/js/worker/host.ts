@@ -1,13 +1,13 @@
 // The worker's side of pliant/worker: runs the calls and answers. The page says which WASM to take.
 
-import { PliantError } from "../errors.js";
-import { Deformer } from "../deformer.js";
-import { Handle } from "../handle.js";
+import { PliantError } from "../boundary/errors.js";
+import { Deformer } from "../deform/deformer.js";
+import { Handle } from "../deform/handle.js";
 import { makeInit } from "../init.js";
 import { Pliant } from "../pliant.js";
-import { Shape } from "../shape.js";
-import { Sketch } from "../sketch.js";
-import { nodeModule } from "../wasm.js";
+import { Shape } from "../shape/shape.js";
+import { Sketch } from "../deform/sketch.js";
+import { nodeModule } from "../boundary/wasm.js";
 import { type Argument, type Call, type Fresh, type Port, provided, type Reference, type Reply, type Request } from "./protocol.js";
 
 const init = makeInit(() => Promise.reject(new Error("none was named")));

@@ -1,6 +1,6 @@
 // The page's end of the line to a worker: calls as promises.
 
-import { PliantError } from "../errors.js";
+import { PliantError } from "../boundary/errors.js";
 import type { WorkerPort } from "./ports.js";
 import { provided, type Reference, type Reply } from "./protocol.js";
 

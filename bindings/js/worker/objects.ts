@@ -1,16 +1,16 @@
 // The objects of pliant/worker: as those of the package, but every call is a promise.
 
-import { type FloatArray, Place, vertexIds } from "../check.js";
-import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deformer.js";
+import { type FloatArray, Place, vertexIds } from "../boundary/check.js";
+import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deform/deformer.js";
 import type { DeformerOptions, LiveOptions, MethodName } from "../methods/index.js";
-import type { MeasureOptions, Quality } from "../quality.js";
-import type { EditOptions, EditResult, EditScript } from "../script/types.js";
-import type { Selection } from "../selection.js";
-import type { ShapeInput, ShapeReport } from "../shape.js";
-import type { SketchOptions } from "../sketch.js";
-import type { State } from "../state.js";
-import type { Transform } from "../transform.js";
-import { disposeSymbol } from "../core.js";
+import type { MeasureOptions, Quality } from "../shape/quality.js";
+import type { EditOptions, EditResult, EditScript } from "../edit/types.js";
+import type { Selection } from "../shape/selection.js";
+import type { ShapeInput, ShapeReport } from "../shape/shape.js";
+import type { SketchOptions } from "../deform/sketch.js";
+import type { State } from "../boundary/state.js";
+import type { Transform } from "../shape/transform.js";
+import { disposeSymbol } from "../boundary/core.js";
 import { Remote } from "./remote.js";
 import { WorkerSketch } from "./sketch.js";
 import type { Line } from "./line.js";

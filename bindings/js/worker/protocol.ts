@@ -1,7 +1,7 @@
 // What the page and its worker say to each other. Objects live in the worker and are known by number.
 
-import type { ErrorCode } from "../errors.js";
-import type { ShapeReport } from "../shape.js";
+import type { ErrorCode } from "../boundary/errors.js";
+import type { ShapeReport } from "../shape/shape.js";
 
 /** `target` 0 is the library itself. */
 export interface Call {

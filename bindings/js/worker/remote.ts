@@ -1,6 +1,6 @@
 // An object of pliant/worker, seen from the page.
 
-import { type FloatArray, output, Place } from "../check.js";
+import { type FloatArray, output, Place } from "../boundary/check.js";
 import { type Line, type Local, split } from "./line.js";
 import type { Reference } from "./protocol.js";
 

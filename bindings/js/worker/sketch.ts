@@ -1,7 +1,7 @@
 // Sketches of pliant/worker.
 
-import type { FloatArray } from "../check.js";
-import type { Camera, Profile, Refinement, Sketch, SketchPose, SketchSeed, SketchState, Stroke } from "../sketch.js";
+import type { FloatArray } from "../boundary/check.js";
+import type { Camera, Profile, Refinement, Sketch, SketchPose, SketchSeed, SketchState, Stroke } from "../deform/sketch.js";
 import type { Line } from "./line.js";
 import type { WorkerShape } from "./objects.js";
 import type { Reference } from "./protocol.js";

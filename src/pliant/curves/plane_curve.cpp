@@ -9,9 +9,9 @@
 namespace pliant {
 namespace {
 
-constexpr Index block_size = 8;  // segments
-constexpr int max_rounds = 30;
-constexpr double equal_steps = 1e-7;
+constexpr Index kBlockSize = 8;  // segments
+constexpr int kMaxRounds = 30;
+constexpr double kEqualSteps = 1e-7;
 
 /// Length of the line up to each of its points.
 std::vector<double> lengths_along(const Polyline& line) {
@@ -36,8 +36,7 @@ std::vector<double> even_places(double length, Index nodes) {
 }
 
 /// The points at ascending places along the line.
-Polyline at_places(const Polyline& line, const std::vector<double>& along,
-                   const std::vector<double>& places) {
+Polyline at_places(const Polyline& line, const std::vector<double>& along, const std::vector<double>& places) {
   Polyline result(2, static_cast<Index>(places.size()));
   std::size_t k = 0;
   for (Index i = 0; i < result.cols(); ++i) {
@@ -76,7 +75,7 @@ Polyline resampled(const Polyline& line, Index nodes) {
   std::vector<double> places = even_places(along.back(), nodes);
   Polyline result;
   // Chords across a bend are shorter than the line: places move until all are equal.
-  for (int round = 0; round < max_rounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     result = at_places(line, along, places);
     const std::vector<double> chords = lengths_along(result);
     const double step = chords.back() / (nodes - 1);
@@ -88,7 +87,7 @@ Polyline resampled(const Polyline& line, Index nodes) {
       const double share = locate(chords, step * i, k);
       moved[i] = (1.0 - share) * places[k] + share * places[k + 1];
     }
-    if (worst <= equal_steps * step) break;
+    if (worst <= kEqualSteps * step) break;
     places = std::move(moved);
   }
   return result;
@@ -111,18 +110,13 @@ PlaneCurve::PlaneCurve(Polyline nodes) : nodes_(std::move(nodes)) {
   derive();
 }
 
-PlaneCurve::PlaneCurve(const Eigen::Vector2d& start, double heading, std::vector<double> turns,
-                       double step)
-    : nodes_(2, static_cast<Index>(turns.size()) + 2),
-      heading_(heading),
-      step_(step),
-      turns_(std::move(turns)) {
+PlaneCurve::PlaneCurve(const Eigen::Vector2d& start, double heading, std::vector<double> turns, double step)
+    : nodes_(2, static_cast<Index>(turns.size()) + 2), heading_(heading), step_(step), turns_(std::move(turns)) {
   nodes_.col(0) = start;
   double direction = heading;
   for (Index i = 1; i < nodes_.cols(); ++i) {
     if (i > 1) direction += turns_[i - 2];
-    nodes_.col(i) =
-        nodes_.col(i - 1) + step * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+    nodes_.col(i) = nodes_.col(i - 1) + step * Eigen::Vector2d(std::cos(direction), std::sin(direction));
   }
   derive();
 }
@@ -140,8 +134,8 @@ void PlaneCurve::derive() {
   totals_[2 * n - 2] = totals_[2 * n - 3] + 0.5 * turns_.back();
 
   blocks_.clear();
-  for (Index first = 0; first + 1 < n; first += block_size) {
-    const Index count = std::min(block_size + 1, n - first);
+  for (Index first = 0; first + 1 < n; first += kBlockSize) {
+    const Index count = std::min(kBlockSize + 1, n - first);
     const auto part = nodes_.middleCols(first, count);
     blocks_.push_back({part.rowwise().minCoeff(), part.rowwise().maxCoeff()});
   }
@@ -168,8 +162,8 @@ double PlaneCurve::nearest(const Eigen::Vector2d& p) const {
   double best = std::numeric_limits<double>::infinity();
   double place = 0.0;
   const auto search = [&](Index b) {
-    const Index end = std::min((b + 1) * block_size, size() - 1);
-    for (Index i = b * block_size; i < end; ++i) {
+    const Index end = std::min((b + 1) * kBlockSize, size() - 1);
+    for (Index i = b * kBlockSize; i < end; ++i) {
       const Eigen::Vector2d segment = nodes_.col(i + 1) - nodes_.col(i);
       const Eigen::Vector2d offset = p - nodes_.col(i);
       const double square = segment.squaredNorm();

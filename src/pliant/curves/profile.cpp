@@ -8,11 +8,10 @@
 namespace pliant {
 namespace {
 
-Status bad_point(const char* argument, std::size_t i, const Profile::Point& point,
-                 const char* expected) {
+Status bad_point(const char* argument, std::size_t i, const Profile::Point& point, const char* expected) {
   char text[160];
-  std::snprintf(text, sizeof text, "%s[%zu] is [%.6g, %.6g]; expected %s", argument, i, point.first,
-                point.second, expected);
+  std::snprintf(text, sizeof text, "%s[%zu] is [%.6g, %.6g]; expected %s", argument, i, point.first, point.second,
+                expected);
   return {ErrorCode::invalid_option, text};
 }
 
@@ -20,8 +19,7 @@ Status bad_point(const char* argument, std::size_t i, const Profile::Point& poin
 
 Result<Profile> Profile::create(std::span<const Point> points, const char* argument) {
   if (points.empty()) {
-    return Status(ErrorCode::invalid_option,
-                  std::string(argument) + " is empty; expected at least one point [s, f]");
+    return Status(ErrorCode::invalid_option, std::string(argument) + " is empty; expected at least one point [s, f]");
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [s, f] = points[i];
@@ -35,8 +33,8 @@ Result<Profile> Profile::create(std::span<const Point> points, const char* argum
 }
 
 double Profile::operator()(double s) const {
-  const auto above = std::upper_bound(points_.begin(), points_.end(), s,
-                                      [](double x, const Point& p) { return x < p.first; });
+  const auto above =
+      std::upper_bound(points_.begin(), points_.end(), s, [](double x, const Point& p) { return x < p.first; });
   if (above == points_.begin()) return points_.front().second;
   const auto [s0, f0] = *(above - 1);
   if (above == points_.end()) return f0;
@@ -46,8 +44,8 @@ double Profile::operator()(double s) const {
 
 /// The limit from the left.
 double Profile::before(double s) const {
-  const auto at = std::lower_bound(points_.begin(), points_.end(), s,
-                                   [](const Point& p, double x) { return p.first < x; });
+  const auto at =
+      std::lower_bound(points_.begin(), points_.end(), s, [](const Point& p, double x) { return p.first < x; });
   if (at == points_.begin()) return points_.front().second;
   if (at == points_.end()) return points_.back().second;
   const auto [s0, f0] = *(at - 1);

@@ -28,13 +28,12 @@ Incidence triangles_of_points(const Triangles& triangles, Index points) {
 EdgeTable unique_edges(const Triangles& triangles, Index points) {
   EdgeTable edges;
   edges.triangles.items.reserve(triangles.size());
-  for_each_edge(
-      triangles, triangles_of_points(triangles, points),
-      [&](Index a, Index b, std::span<const Index> sharing) {
-        edges.ends.push_back({a, b});
-        edges.triangles.items.insert(edges.triangles.items.end(), sharing.begin(), sharing.end());
-        edges.triangles.offsets.push_back(static_cast<Index>(edges.triangles.items.size()));
-      });
+  for_each_edge(triangles, triangles_of_points(triangles, points),
+                [&](Index a, Index b, std::span<const Index> sharing) {
+                  edges.ends.push_back({a, b});
+                  edges.triangles.items.insert(edges.triangles.items.end(), sharing.begin(), sharing.end());
+                  edges.triangles.offsets.push_back(static_cast<Index>(edges.triangles.items.size()));
+                });
   return edges;
 }
 

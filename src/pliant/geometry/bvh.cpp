@@ -44,7 +44,7 @@ Bvh::Bvh(const Points& points, const Triangles& triangles) : order_(triangles.co
 Index Bvh::build(Index first, Index last, const Points& centers) {
   const Index n = static_cast<Index>(nodes_.size());
   nodes_.push_back({Box(), first, last - first, 0});
-  if (last - first <= leaf_size) {
+  if (last - first <= kLeafSize) {
     return n;
   }
   Box spread;

@@ -34,7 +34,7 @@ class Bvh {
     Index second = 0;
   };
 
-  static constexpr Index leaf_size = 4;
+  static constexpr Index kLeafSize = 4;
 
   Index build(Index first, Index last, const Points& centers);
 

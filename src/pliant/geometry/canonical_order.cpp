@@ -15,9 +15,9 @@
 namespace pliant {
 namespace {
 
-constexpr double tie = 1e-9;             // of the root mean square distance from the centroid
-constexpr double least_gap = 1e-5;       // between variances, of the largest one
-constexpr double least_skewness = 1e-9;  // of a third moment, in units of the largest variance^1.5
+constexpr double kTie = 1e-9;            // of the root mean square distance from the centroid
+constexpr double kLeastGap = 1e-5;       // between variances, of the largest one
+constexpr double kLeastSkewness = 1e-9;  // of a third moment, in units of the largest variance^1.5
 
 /// Rows: directions that move with the shape where it has such, else the input's axes.
 Eigen::Matrix3d intrinsic_frame(const Points& centered) {
@@ -26,15 +26,14 @@ Eigen::Matrix3d intrinsic_frame(const Points& centered) {
   covariance /= static_cast<double>(centered.cols());
   const Svd3 eigen = svd3(covariance);
   const Eigen::Vector3d& variance = eigen.values;
-  if (std::min(variance[0] - variance[1], variance[1] - variance[2]) <= least_gap * variance[0]) {
+  if (std::min(variance[0] - variance[1], variance[1] - variance[2]) <= kLeastGap * variance[0]) {
     return Eigen::Matrix3d::Identity();
   }
   Eigen::Matrix3d axes = eigen.u.transpose();
   int signless = -1;
   for (int axis = 0; axis < 3; ++axis) {
-    const double third_moment =
-        (axes.row(axis) * centered).array().cube().mean() / std::pow(variance[0], 1.5);
-    if (std::abs(third_moment) > least_skewness) {
+    const double third_moment = (axes.row(axis) * centered).array().cube().mean() / std::pow(variance[0], 1.5);
+    if (std::abs(third_moment) > kLeastSkewness) {
       axes.row(axis) *= third_moment > 0 ? 1 : -1;
     } else if (signless < 0) {
       signless = axis;
@@ -55,7 +54,7 @@ class Sorter {
     const Eigen::Vector3d centroid = points_.rowwise().mean();
     centered_ = points_.colwise() - centroid;
     frame_ = intrinsic_frame(centered_);
-    tolerance_ = tie * std::sqrt(centered_.colwise().squaredNorm().mean());
+    tolerance_ = kTie * std::sqrt(centered_.colwise().squaredNorm().mean());
   }
 
   std::vector<Index> sorted() {
@@ -71,7 +70,7 @@ class Sorter {
 
  private:
   using Keyed = std::pair<double, Index>;
-  static constexpr int levels = 4;  // the distance, then three coordinates
+  static constexpr int kLevels = 4;  // the distance, then three coordinates
 
   double key(Index p, int level) const {
     return level == 0 ? centered_.col(p).norm() : frame_.row(level - 1).dot(centered_.col(p));
@@ -80,11 +79,10 @@ class Sorter {
   /// Sorts by the key of `level`, and runs whose keys follow each other within the tolerance by the
   /// next one; in the end by the exact input coordinates, which no two points share.
   void sort(std::span<Keyed> range, int level) {
-    if (level == levels) {
+    if (level == kLevels) {
       std::sort(range.begin(), range.end(), [this](const Keyed& a, const Keyed& b) {
-        return std::lexicographical_compare(
-            points_.col(a.second).begin(), points_.col(a.second).end(),
-            points_.col(b.second).begin(), points_.col(b.second).end());
+        return std::lexicographical_compare(points_.col(a.second).begin(), points_.col(a.second).end(),
+                                            points_.col(b.second).begin(), points_.col(b.second).end());
       });
       return;
     }

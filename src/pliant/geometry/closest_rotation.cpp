@@ -15,8 +15,7 @@ namespace {
 Eigen::Matrix3d smallest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d axis = from.cross(to);
   const double sine = axis.norm(), cosine = from.dot(to);
-  const Eigen::Vector3d direction =
-      sine > 0.0 ? Eigen::Vector3d(axis / sine) : from.unitOrthogonal();
+  const Eigen::Vector3d direction = sine > 0.0 ? Eigen::Vector3d(axis / sine) : from.unitOrthogonal();
   return Eigen::AngleAxisd(std::atan2(sine, cosine), direction).toRotationMatrix();
 }
 

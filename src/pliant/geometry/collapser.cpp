@@ -14,15 +14,15 @@ namespace pliant {
 namespace {
 
 /// Weight of the squared way a point moves beside its squared distances from the planes.
-constexpr double evenness = 0.3;
+constexpr double kEvenness = 0.3;
 
 /// A collapse that breaks a rule costs that many times more. Costs fall with the fourth power of
 /// the spacing: what is six times finer than the rest goes in spite of the first two rules, and
 /// what is ten times finer in spite of the last, so that no detail keeps points the layout needs
 /// elsewhere, and every number of points can be reached.
-constexpr double thin_triangle = 1e3;
-constexpr double turned_triangle = 1e3;
-constexpr double changed_topology = 1e4;
+constexpr double kThinTriangle = 1e3;
+constexpr double kTurnedTriangle = 1e3;
+constexpr double kChangedTopology = 1e4;
 
 Eigen::Vector3d area_vector(const Eigen::Matrix3d& triangle) {
   return (triangle.col(1) - triangle.col(0)).cross(triangle.col(2) - triangle.col(0));
@@ -30,9 +30,9 @@ Eigen::Vector3d area_vector(const Eigen::Matrix3d& triangle) {
 
 /// Longest edge over shortest height.
 double aspect_ratio(const Eigen::Matrix3d& triangle) {
-  const double longest = std::max({(triangle.col(1) - triangle.col(0)).squaredNorm(),
-                                   (triangle.col(2) - triangle.col(1)).squaredNorm(),
-                                   (triangle.col(0) - triangle.col(2)).squaredNorm()});
+  const double longest =
+      std::max({(triangle.col(1) - triangle.col(0)).squaredNorm(), (triangle.col(2) - triangle.col(1)).squaredNorm(),
+                (triangle.col(0) - triangle.col(2)).squaredNorm()});
   const double doubled_area = area_vector(triangle).norm();
   return doubled_area > 0.0 ? longest / doubled_area : std::numeric_limits<double>::infinity();
 }
@@ -108,7 +108,7 @@ void Collapser::collect_choices(Index p) {
     choices_.emplace_back(cost(p, n.point), n.point);
   }
   if (ring_.empty()) {
-    choices_.emplace_back(cost(p, nothing), nothing);
+    choices_.emplace_back(cost(p, kNothing), kNothing);
   }
 }
 
@@ -143,21 +143,19 @@ Collapser::Collapse Collapser::cheapest(Index p) {
 
 /// Equal up to rounding means equal: the lower rank decides.
 double Collapser::cost(Index p, Index onto) const {
-  if (onto == nothing) {
+  if (onto == kNothing) {
     // As for a neighbour as far away as the surface it stands for is wide.
-    return without_rounding_noise(evenness * area_[p] * area_[p]);
+    return without_rounding_noise(kEvenness * area_[p] * area_[p]);
   }
   const Eigen::Vector3d way = points_.col(onto) - points_.col(p);
-  return without_rounding_noise(quadric_[p].at(way) + quadric_[onto].c +
-                                evenness * area_[p] * way.squaredNorm());
+  return without_rounding_noise(quadric_[p].at(way) + quadric_[onto].c + kEvenness * area_[p] * way.squaredNorm());
 }
 
 double Collapser::penalty(Index p, Index onto) const {
-  if (onto == nothing || is_tetrahedron(p, onto)) {
+  if (onto == kNothing || is_tetrahedron(p, onto)) {
     return 1.0;
   }
-  return (keeps_lines(onto) && keeps_topology(p, onto) ? 1.0 : changed_topology) *
-         shape_penalty(p, onto);
+  return (keeps_lines(onto) && keeps_topology(p, onto) ? 1.0 : kChangedTopology) * shape_penalty(p, onto);
 }
 
 /// The last four triangles of a closed component may go: first to one seen from both sides.
@@ -208,9 +206,8 @@ bool Collapser::keeps_topology(Index p, Index onto) const {
       }
     }
     const auto lands_on_other = [&](Index t) {
-      return !contains(t, onto) &&
-             std::all_of(triangles_.col(t).begin(), triangles_.col(t).end(),
-                         [&](Index corner) { return corner == p || contains(other, corner); });
+      return !contains(t, onto) && std::all_of(triangles_.col(t).begin(), triangles_.col(t).end(),
+                                               [&](Index corner) { return corner == p || contains(other, corner); });
     };
     if (next_to_both == 2 && std::any_of(around_[p].begin(), around_[p].end(), lands_on_other)) {
       return false;
@@ -241,19 +238,17 @@ double Collapser::shape_penalty(Index p, Index onto) const {
     thinnest = std::max(thinnest, aspect);
     const Eigen::Vector3d normal = area_vector(before);
     const Eigen::Vector3d new_normal = area_vector(after);
-    turned |= aspect > no_normal ||
-              normal.dot(new_normal) < least_cosine * normal.norm() * new_normal.norm();
+    turned |= aspect > no_normal || normal.dot(new_normal) < least_cosine * normal.norm() * new_normal.norm();
   }
-  return (turned ? turned_triangle : 1.0) *
-         (thinnest > std::max(max_aspect_ratio_, thinnest_before_) * rounding ? thin_triangle
-                                                                              : 1.0);
+  return (turned ? kTurnedTriangle : 1.0) *
+         (thinnest > std::max(max_aspect_ratio_, thinnest_before_) * rounding ? kThinTriangle : 1.0);
 }
 
 void Collapser::perform(const Collapse& collapse) {
   const auto [price, p, onto, stamp] = collapse;
   alive_[p] = 0;
   --left_;
-  if (onto == nothing) {
+  if (onto == kNothing) {
     return;
   }
   quadric_[onto].add(quadric_[p].about(points_.col(onto) - points_.col(p)));

@@ -24,7 +24,7 @@ class Collapser {
   bool is_left(Index p) const { return alive_[p] != 0; }
 
  private:
-  static constexpr Index nothing = -1;
+  static constexpr Index kNothing = -1;
 
   /// `point` goes to `onto`, or, where it has no triangles left, vanishes (onto nothing).
   struct Collapse {

@@ -27,8 +27,7 @@ std::vector<double> cotangent_weights(const Points& half_cotangents, const Trian
   std::vector<double> weights(edges.size(), 0.0);
   for (Index e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges.ends[e];
-    for (Index t : edges.triangles.row(e))
-      weights[e] += half_cotangents(corner_across(triangles, t, a, b), t);
+    for (Index t : edges.triangles.row(e)) weights[e] += half_cotangents(corner_across(triangles, t, a, b), t);
   }
   return weights;
 }

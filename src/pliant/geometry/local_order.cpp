@@ -29,8 +29,7 @@ std::vector<Index> local_order(const Points& points) {
   keys.reserve(static_cast<std::size_t>(points.cols()));
   for (Index p = 0; p < points.cols(); ++p) {
     std::uint64_t key = 0;
-    for (int k = 0; k < 3; ++k)
-      key |= spread(static_cast<std::uint64_t>((points(k, p) - low[k]) * scale)) << k;
+    for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>((points(k, p) - low[k]) * scale)) << k;
     keys.emplace_back(key, p);
   }
   std::sort(keys.begin(), keys.end());

@@ -16,12 +16,10 @@
 namespace pliant {
 namespace {
 
-constexpr double fold_cosine = -0.5;
-constexpr double contact = 1e-10;  // of the diagonal: two triangles that close only touch
+constexpr double kFoldCosine = -0.5;
+constexpr double kContact = 1e-10;  // of the diagonal: two triangles that close only touch
 
-double diagonal_of(const Points& points) {
-  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-}
+double diagonal_of(const Points& points) { return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm(); }
 
 Eigen::Matrix3d corners(const Points& points, const Triangles& triangles, Index t) {
   Eigen::Matrix3d result;
@@ -41,8 +39,7 @@ double quantile(std::vector<double>& values, double q) {
   return low + (high - low) * (place - std::floor(place));
 }
 
-void measure_stretch(const EdgeTable& edges, const Points& rest, const Points& deformed,
-                     Quality& quality) {
+void measure_stretch(const EdgeTable& edges, const Points& rest, const Points& deformed, Quality& quality) {
   if (edges.size() == 0) {
     return;
   }
@@ -111,8 +108,7 @@ double signed_volume(const Points& points, const Triangles& triangles) {
   return volume;
 }
 
-Index count_folds(const EdgeTable& edges, const Points& area_vectors_rest,
-                  const Points& area_vectors) {
+Index count_folds(const EdgeTable& edges, const Points& area_vectors_rest, const Points& area_vectors) {
   const auto cosine = [](const Points& vectors, Index s, Index t) {
     const double lengths = vectors.col(s).norm() * vectors.col(t).norm();
     return lengths > 0.0 ? vectors.col(s).dot(vectors.col(t)) / lengths : 0.0;
@@ -120,15 +116,15 @@ Index count_folds(const EdgeTable& edges, const Points& area_vectors_rest,
   Index folds = 0;
   for (Index e = 0; e < edges.size(); ++e) {
     const std::span<const Index> sides = edges.triangles.row(e);
-    folds += sides.size() == 2 && cosine(area_vectors, sides[0], sides[1]) < fold_cosine &&
-             cosine(area_vectors_rest, sides[0], sides[1]) >= fold_cosine;
+    folds += sides.size() == 2 && cosine(area_vectors, sides[0], sides[1]) < kFoldCosine &&
+             cosine(area_vectors_rest, sides[0], sides[1]) >= kFoldCosine;
   }
   return folds;
 }
 
 Index count_new_crossings(const Triangles& triangles, const Points& rest, const Points& deformed) {
-  const double contact_rest = contact * diagonal_of(rest);
-  const double contact_deformed = contact * diagonal_of(deformed);
+  const double contact_rest = kContact * diagonal_of(rest);
+  const double contact_deformed = kContact * diagonal_of(deformed);
   Index count = 0;
   Bvh(deformed, triangles).for_each_touching_pair([&](Index s, Index t) {
     for (const Index corner : triangles.col(s)) {
@@ -137,11 +133,9 @@ Index count_new_crossings(const Triangles& triangles, const Points& rest, const 
       }
     }
     const auto cross = [&](const Points& points, double tolerance) {
-      return triangles_cross(corners(points, triangles, s), corners(points, triangles, t),
-                             tolerance);
+      return triangles_cross(corners(points, triangles, s), corners(points, triangles, t), tolerance);
     };
-    if (count < std::numeric_limits<Index>::max() && cross(deformed, contact_deformed) &&
-        !cross(rest, contact_rest)) {
+    if (count < std::numeric_limits<Index>::max() && cross(deformed, contact_deformed) && !cross(rest, contact_rest)) {
       ++count;
     }
   });
@@ -190,11 +184,11 @@ Quality measure_quality(const Shape& shape, const Points& deformed, bool with_in
   const Points area_vectors = triangle_area_vectors(deformed, triangles);
   quality.folds = count_folds(edges, area_vectors_rest, area_vectors);
   const double doubled_area = area_vectors_rest.colwise().norm().sum();
-  if (doubled_area > Shape::no_height * diagonal * diagonal) {
+  if (doubled_area > Shape::kNoHeight * diagonal * diagonal) {
     quality.area = area_vectors.colwise().norm().sum() / doubled_area;
   }
   const double volume = signed_volume(rest, triangles);
-  if (std::abs(volume) > Shape::no_height * std::pow(diagonal, 3) && is_closed(triangles, edges)) {
+  if (std::abs(volume) > Shape::kNoHeight * std::pow(diagonal, 3) && is_closed(triangles, edges)) {
     quality.volume = signed_volume(deformed, triangles) / volume;
   }
   quality.roughness_rest = roughness(edges, rest, point_normals(rest, triangles)) / diagonal;

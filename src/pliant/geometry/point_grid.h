@@ -22,8 +22,7 @@ class PointGrid {
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          for (const Index i :
-               buckets_.row(static_cast<Index>(bucket(middle + Cell(dx, dy, dz))))) {
+          for (const Index i : buckets_.row(static_cast<Index>(bucket(middle + Cell(dx, dy, dz))))) {
             const double squared = (points_.col(i) - center).squaredNorm();
             if (squared < cell_ * cell_) {
               visit(i, squared);

@@ -17,9 +17,7 @@ struct Quadric {
   double c = 0.0;
 
   /// A plane through the point.
-  void add_plane(const Eigen::Vector3d& normal, double weight) {
-    a += weight * normal * normal.transpose();
-  }
+  void add_plane(const Eigen::Vector3d& normal, double weight) { a += weight * normal * normal.transpose(); }
   double at(const Eigen::Vector3d& offset) const {
     return std::max(0.0, offset.dot(a * offset) + 2.0 * b.dot(offset) + c);
   }

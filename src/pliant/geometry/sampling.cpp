@@ -49,14 +49,11 @@ struct Candidates {
 
 /// `count` points over the triangles, one in each of as many equal parts of the area; none where
 /// there is no area.
-Candidates surface_candidates(const Shape& shape, const std::vector<Index>& order, Index count,
-                              Random& random) {
+Candidates surface_candidates(const Shape& shape, const std::vector<Index>& order, Index count, Random& random) {
   const Points points = shape.points()(Eigen::all, order);
   const Triangles triangles = canonical_triangles(shape, order);
   const std::vector<Index> part_of =
-      connected_components(triangles,
-                           triangles_of_points(triangles, static_cast<Index>(points.cols())))
-          .of_triangle;
+      connected_components(triangles, triangles_of_points(triangles, static_cast<Index>(points.cols()))).of_triangle;
   const Points area_vectors = triangle_area_vectors(points, triangles);
 
   Candidates candidates;
@@ -69,7 +66,7 @@ Candidates surface_candidates(const Shape& shape, const std::vector<Index>& orde
     candidates.shares.resize(std::max<std::size_t>(candidates.shares.size(), part_of[t] + 1), 0.0);
     candidates.shares[part_of[t]] += area;
   }
-  if (total <= Shape::no_height * shape.diagonal() * shape.diagonal()) {
+  if (total <= Shape::kNoHeight * shape.diagonal() * shape.diagonal()) {
     return {};
   }
   for (double& share : candidates.shares) {
@@ -90,8 +87,7 @@ Candidates surface_candidates(const Shape& shape, const std::vector<Index>& orde
       v = 1.0 - v;
     }
     const auto corner = [&](int i) { return points.col(triangles(i, static_cast<Index>(t))); };
-    candidates.points.col(sample) =
-        corner(0) + u * (corner(1) - corner(0)) + v * (corner(2) - corner(0));
+    candidates.points.col(sample) = corner(0) + u * (corner(1) - corner(0)) + v * (corner(2) - corner(0));
     candidates.part[sample] = part_of[t];
   }
   return candidates;
@@ -258,8 +254,7 @@ class Thinning {
   std::vector<char> gone_;
   std::vector<std::pair<double, Index>> nearest_;  ///< squared distance over reach, neighbour
   std::vector<Index> left_of_part_;
-  std::priority_queue<std::pair<double, Index>>
-      closest_;  ///< minus squared distance, the later first
+  std::priority_queue<std::pair<double, Index>> closest_;  ///< minus squared distance, the later first
   const Candidates& candidates_;
   Index count_;
 };
@@ -305,8 +300,7 @@ Points sample_surface(const Shape& shape, Index count, std::uint64_t seed) {
   shuffle(candidates, random);
   Removal removal = remove_to_at_least(candidates.points, count);
   add_missing_parts(candidates, count, removal.left);
-  const std::vector<Index> kept =
-      Thinning(candidates, std::move(removal.left), removal.radius, count).run();
+  const std::vector<Index> kept = Thinning(candidates, std::move(removal.left), removal.radius, count).run();
   return candidates.points(Eigen::all, kept);
 }
 

@@ -32,16 +32,16 @@ Status invalid(const std::string& message) { return {ErrorCode::invalid_shape, m
 
 Status check_length(const char* argument, std::size_t length, int width) {
   if (length % width != 0) {
-    return invalid(std::string(argument) + " has length " + std::to_string(length) +
-                   "; expected a multiple of " + std::to_string(width));
+    return invalid(std::string(argument) + " has length " + std::to_string(length) + "; expected a multiple of " +
+                   std::to_string(width));
   }
   return {};
 }
 
 Status check_count(const char* argument, const char* unit, std::size_t count, Index limit) {
   if (count > static_cast<std::size_t>(limit)) {
-    return {ErrorCode::too_large, std::string(argument) + " has " + std::to_string(count) + " " +
-                                      unit + "; expected at most " + std::to_string(limit)};
+    return {ErrorCode::too_large, std::string(argument) + " has " + std::to_string(count) + " " + unit +
+                                      "; expected at most " + std::to_string(limit)};
   }
   return {};
 }
@@ -56,19 +56,16 @@ Status check_positions(std::span<const double> positions, int dimension) {
   if (Status status = check_length("positions", positions.size(), dimension); !status.ok()) {
     return status;
   }
-  if (Status status =
-          check_count("positions", "vertices", positions.size() / dimension, Shape::max_vertices);
+  if (Status status = check_count("positions", "vertices", positions.size() / dimension, Shape::kMaxVertices);
       !status.ok()) {
     return status;
   }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     // Written so that NaN fails too.
-    if (!(std::abs(positions[i]) <= Shape::max_coordinate)) {
-      const std::string expected = std::isfinite(positions[i])
-                                       ? "a magnitude of at most " + number(Shape::max_coordinate)
-                                       : "a finite number";
-      return invalid("positions[" + std::to_string(i) + "] is " + number(positions[i]) +
-                     "; expected " + expected);
+    if (!(std::abs(positions[i]) <= Shape::kMaxCoordinate)) {
+      const std::string expected =
+          std::isfinite(positions[i]) ? "a magnitude of at most " + number(Shape::kMaxCoordinate) : "a finite number";
+      return invalid("positions[" + std::to_string(i) + "] is " + number(positions[i]) + "; expected " + expected);
     }
   }
   return {};
@@ -78,9 +75,7 @@ Status check_triangles(std::span<const std::uint32_t> triangles, std::size_t ver
   if (Status status = check_length("triangles", triangles.size(), 3); !status.ok()) {
     return status;
   }
-  if (Status status =
-          check_count("triangles", "triangles", triangles.size() / 3, Shape::max_triangles);
-      !status.ok()) {
+  if (Status status = check_count("triangles", "triangles", triangles.size() / 3, Shape::kMaxTriangles); !status.ok()) {
     return status;
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -95,8 +90,7 @@ Status check_triangles(std::span<const std::uint32_t> triangles, std::size_t ver
 /// Finds points by exact position: open addressing, at most half full.
 class PointTable {
  public:
-  explicit PointTable(Index capacity)
-      : slots_(std::bit_ceil(2 * static_cast<std::size_t>(capacity)), -1) {}
+  explicit PointTable(Index capacity) : slots_(std::bit_ceil(2 * static_cast<std::size_t>(capacity)), -1) {}
 
   /// The id of the point at `position`, or -1 after entering it under `id`. `points` holds those
   /// entered before.
@@ -132,11 +126,10 @@ Index count_without_area(const Points& points, const Triangles& triangles, doubl
   for (Index t = 0; t < triangles.cols(); ++t) {
     double longest = 0.0;
     for (int corner = 0; corner < 3; ++corner) {
-      longest = std::max(
-          longest,
-          (points.col(triangles(corner, t)) - points.col(triangles((corner + 1) % 3, t))).norm());
+      longest =
+          std::max(longest, (points.col(triangles(corner, t)) - points.col(triangles((corner + 1) % 3, t))).norm());
     }
-    count += area_vectors.col(t).norm() <= Shape::no_height * diagonal * longest;
+    count += area_vectors.col(t).norm() <= Shape::kNoHeight * diagonal * longest;
   }
   return count;
 }
@@ -144,8 +137,7 @@ Index count_without_area(const Points& points, const Triangles& triangles, doubl
 }  // namespace
 
 Result<std::shared_ptr<const Shape>> Shape::create(std::span<const double> positions,
-                                                   std::span<const std::uint32_t> triangles,
-                                                   int dimension) {
+                                                   std::span<const std::uint32_t> triangles, int dimension) {
   if (Status status = check_positions(positions, dimension); !status.ok()) {
     return status;
   }
@@ -156,11 +148,10 @@ Result<std::shared_ptr<const Shape>> Shape::create(std::span<const double> posit
   shape->dimension_ = dimension;
   shape->weld(positions);
 
-  const Eigen::Vector3d extent =
-      shape->points_.rowwise().maxCoeff() - shape->points_.rowwise().minCoeff();
-  if (shape->points_.cols() > 1 && extent.maxCoeff() < min_extent) {
-    return invalid("positions span " + number(extent.maxCoeff()) + "; expected at least " +
-                   number(min_extent) + ", or one position only");
+  const Eigen::Vector3d extent = shape->points_.rowwise().maxCoeff() - shape->points_.rowwise().minCoeff();
+  if (shape->points_.cols() > 1 && extent.maxCoeff() < kMinExtent) {
+    return invalid("positions span " + number(extent.maxCoeff()) + "; expected at least " + number(kMinExtent) +
+                   ", or one position only");
   }
   shape->diagonal_ = extent.norm();
   shape->keep_triangles(triangles);
@@ -207,8 +198,8 @@ void Shape::fill_report(Index input_triangles) {
   report_.vertices = input_size();
   report_.triangles = input_triangles;
   report_.welded_vertices = input_size() - points;
-  report_.degenerate_triangles = input_triangles - static_cast<Index>(triangles_.cols()) +
-                                 count_without_area(points_, triangles_, diagonal_);
+  report_.degenerate_triangles =
+      input_triangles - static_cast<Index>(triangles_.cols()) + count_without_area(points_, triangles_, diagonal_);
   const Incidence around = triangles_of_points(triangles_, points);
   report_.components = connected_components(triangles_, around).count;
   for_each_edge(triangles_, around, [this](Index, Index, std::span<const Index> sharing) {
@@ -225,8 +216,7 @@ std::shared_ptr<const Shape> Shape::in_local_order() const {
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
   std::shared_ptr<Shape> shape(new Shape(*this));
   shape->points_ = points_(Eigen::all, order);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    shape->vertex_of_point_[i] = vertex_of_point_[order[i]];
+  for (std::size_t i = 0; i < order.size(); ++i) shape->vertex_of_point_[i] = vertex_of_point_[order[i]];
   for (Index& point : shape->point_of_vertex_) point = rank[point];
   std::vector<std::array<Index, 3>> triangles;
   for (const auto& corners : triangles_.colwise())

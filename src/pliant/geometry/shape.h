@@ -35,18 +35,17 @@ class Shape {
   /// smaller than min_extent, index out of range), too_large (more than max_vertices or
   /// max_triangles).
   static Result<std::shared_ptr<const Shape>> create(std::span<const double> positions,
-                                                     std::span<const std::uint32_t> triangles,
-                                                     int dimension = 3);
+                                                     std::span<const std::uint32_t> triangles, int dimension = 3);
 
-  static constexpr Index max_vertices = 8'000'000;
-  static constexpr Index max_triangles = 4 * max_vertices;
+  static constexpr Index kMaxVertices = 8'000'000;
+  static constexpr Index kMaxTriangles = 4 * kMaxVertices;
   /// Within these bounds no area, volume or product of two of them overflows or vanishes, so that
   /// nothing behind the door has to care. min_extent: of the longest side of the bounding box,
   /// unless all points coincide.
-  static constexpr double max_coordinate = 1e30;
-  static constexpr double min_extent = 1e-30;
+  static constexpr double kMaxCoordinate = 1e30;
+  static constexpr double kMinExtent = 1e-30;
   /// A triangle whose shortest height is below this part of the diagonal counts as having no area.
-  static constexpr double no_height = 1e-12;
+  static constexpr double kNoHeight = 1e-12;
 
   int dimension() const { return dimension_; }
   Index input_size() const { return static_cast<Index>(point_of_vertex_.size()); }

@@ -17,14 +17,12 @@ Status check(const Shape& shape, const SimplifyOptions& options) {
   }
   if (options.target_points < 1 || options.target_points > points) {
     return {ErrorCode::invalid_option, "target_points is " + std::to_string(options.target_points) +
-                                           "; expected 1 to " + std::to_string(points) +
-                                           ", the points of the shape"};
+                                           "; expected 1 to " + std::to_string(points) + ", the points of the shape"};
   }
   // An equilateral triangle has 1.15.
   if (!(options.max_aspect_ratio >= 2.0)) {
-    return {ErrorCode::invalid_option, "max_aspect_ratio is " +
-                                           std::to_string(options.max_aspect_ratio) +
-                                           "; expected at least 2"};
+    return {ErrorCode::invalid_option,
+            "max_aspect_ratio is " + std::to_string(options.max_aspect_ratio) + "; expected at least 2"};
   }
   return {};
 }
@@ -41,8 +39,7 @@ Result<std::vector<Index>> simplify(const Shape& shape, const SimplifyOptions& o
   const Eigen::Vector3d center = points.rowwise().mean();
   points.colwise() -= center;
   points /= std::sqrt(points.colwise().squaredNorm().mean());
-  Collapser collapser(std::move(points), canonical_triangles(shape, order),
-                      options.max_aspect_ratio);
+  Collapser collapser(std::move(points), canonical_triangles(shape, order), options.max_aspect_ratio);
   collapser.run(options.target_points);
 
   std::vector<Index> survivors;

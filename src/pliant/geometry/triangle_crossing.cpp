@@ -46,8 +46,7 @@ Eigen::RowVector3d heights(const Eigen::Matrix3d& triangle, const Eigen::Vector3
 }
 
 /// Where the triangle meets the plane its corners have these heights over, along `line`.
-Interval section(const Eigen::Matrix3d& triangle, const Eigen::RowVector3d& height,
-                 const Eigen::Vector3d& line) {
+Interval section(const Eigen::Matrix3d& triangle, const Eigen::RowVector3d& height, const Eigen::Vector3d& line) {
   Interval met;
   const Eigen::RowVector3d along = line.transpose() * triangle;
   for (int i = 0; i < 3; ++i) {
@@ -61,8 +60,8 @@ Interval section(const Eigen::Matrix3d& triangle, const Eigen::RowVector3d& heig
   return met;
 }
 
-bool overlap_in_plane(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b,
-                      const Eigen::Vector3d& normal, double tolerance) {
+bool overlap_in_plane(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Vector3d& normal,
+                      double tolerance) {
   for (const Eigen::Matrix3d* triangle : {&a, &b}) {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d side = triangle->col((i + 1) % 3) - triangle->col(i);

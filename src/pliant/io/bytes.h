@@ -14,13 +14,9 @@ namespace pliant::io {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
-inline std::string_view text_of(ByteView bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+inline std::string_view text_of(ByteView bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-inline void append(Bytes& out, std::string_view text) {
-  out.insert(out.end(), text.begin(), text.end());
-}
+inline void append(Bytes& out, std::string_view text) { out.insert(out.end(), text.begin(), text.end()); }
 
 static_assert(std::endian::native == std::endian::little, "binary numbers are swapped from little");
 

@@ -12,8 +12,7 @@ Status check_finite(std::span<const double> values, const char* name) {
       continue;
     }
     const char* value = std::isnan(values[i]) ? "NaN" : values[i] > 0 ? "Infinity" : "-Infinity";
-    return {ErrorCode::invalid_shape,
-            message({name, "[", i, "] is ", value, "; expected a finite number"})};
+    return {ErrorCode::invalid_shape, message({name, "[", i, "] is ", value, "; expected a finite number"})};
   }
   return {};
 }

@@ -18,8 +18,8 @@
 namespace pliant::io {
 namespace {
 
-constexpr std::size_t piece_size = 1 << 20;
-constexpr std::size_t max_vertices = Shape::max_vertices;
+constexpr std::size_t kPieceSize = 1 << 20;
+constexpr std::size_t kMaxVertices = Shape::kMaxVertices;
 
 Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
@@ -36,7 +36,7 @@ Status reserve(Bytes& out, std::uint64_t size) {
 /// The writer of the format needs no more bytes than this.
 std::uint64_t size_bound(FileFormat format, const PolygonMesh& mesh, std::size_t triangle_ids) {
   constexpr std::uint64_t header = 512;
-  constexpr std::uint64_t number = Draft::longest_text + 3;  // a blank, a share of keyword and end
+  constexpr std::uint64_t number = Draft::kLongestText + 3;  // a blank, a share of keyword and end
   constexpr std::uint64_t id = 9;                            // with a blank; no id has more digits
   const std::uint64_t numbers = mesh.positions.size();
   const std::uint64_t faces = mesh.face_count();
@@ -44,8 +44,7 @@ std::uint64_t size_bound(FileFormat format, const PolygonMesh& mesh, std::size_t
   const std::uint64_t textured = mesh.corner_texcoords.size();
   switch (format) {
     case FileFormat::obj:
-      return header + number * (numbers + mesh.texcoords.size()) + id * (corners + textured) +
-             2 * faces;
+      return header + number * (numbers + mesh.texcoords.size()) + id * (corners + textured) + 2 * faces;
     case FileFormat::ply:
       return header + 8 * numbers + 4 * corners + 16 * textured + 8 * faces;
     case FileFormat::off:
@@ -60,33 +59,29 @@ std::uint64_t size_bound(FileFormat format, const PolygonMesh& mesh, std::size_t
 
 Status check_positions(std::span<const double> positions) {
   if (positions.empty() || positions.size() % 3 != 0) {
-    return invalid({"positions has ", positions.size(),
-                    " numbers; expected 3 a vertex and at least one vertex"});
+    return invalid({"positions has ", positions.size(), " numbers; expected 3 a vertex and at least one vertex"});
   }
-  if (positions.size() / 3 > max_vertices) {
-    return too_large(
-        {"the shape has ", positions.size() / 3, " vertices; expected at most ", max_vertices});
+  if (positions.size() / 3 > kMaxVertices) {
+    return too_large({"the shape has ", positions.size() / 3, " vertices; expected at most ", kMaxVertices});
   }
   return check_finite(positions, "positions");
 }
 
 /// Reads polygons as (count, ids...) into the mesh.
 Status take_polygons(std::span<const std::int32_t> polygons, PolygonMesh& mesh) {
-  if (polygons.size() > PolygonCollector::max_corners) {
-    return too_large({"polygons has ", polygons.size(), " numbers; expected at most ",
-                      PolygonCollector::max_corners});
+  if (polygons.size() > PolygonCollector::kMaxCorners) {
+    return too_large({"polygons has ", polygons.size(), " numbers; expected at most ", PolygonCollector::kMaxCorners});
   }
   for (std::size_t at = 0; at < polygons.size();) {
     const std::int32_t corners = polygons[at++];
     const std::string name = message({"polygon ", mesh.face_count()});
     if (corners < 3 || static_cast<std::size_t>(corners) > polygons.size() - at) {
-      return invalid({name, " has a count of ", corners,
-                      "; expected at least 3 corners, all of them in the list"});
+      return invalid({name, " has a count of ", corners, "; expected at least 3 corners, all of them in the list"});
     }
     for (const std::int32_t id : polygons.subspan(at, static_cast<std::size_t>(corners))) {
       if (id < 0 || static_cast<std::size_t>(id) >= mesh.vertex_count()) {
-        return invalid({name, " refers to vertex ", id, "; the shape has ", mesh.vertex_count(),
-                        " vertices, counted from 0"});
+        return invalid(
+            {name, " refers to vertex ", id, "; the shape has ", mesh.vertex_count(), " vertices, counted from 0"});
       }
       mesh.face_vertices.push_back(static_cast<std::uint32_t>(id));
     }
@@ -99,15 +94,14 @@ Status take_polygons(std::span<const std::int32_t> polygons, PolygonMesh& mesh) 
 }  // namespace
 
 Status Document::read(FileFormat format, Bytes bytes) {
-  if (bytes.size() > max_bytes) {
-    return too_large(
-        {"the file has ", bytes.size(), " bytes; at most ", max_bytes, " can be read whole"});
+  if (bytes.size() > kMaxBytes) {
+    return too_large({"the file has ", bytes.size(), " bytes; at most ", kMaxBytes, " can be read whole"});
   }
   PolygonCollector polygons;
   const std::unique_ptr<Scanner> scanner = make_scanner(format, &polygons);
   const std::string_view text = text_of(bytes);
   std::vector<double> positions;
-  Draft draft(piece_size);
+  Draft draft(kPieceSize);
   for (std::size_t at = 0; at < text.size();) {
     draft.clear();
     const Result<std::size_t> taken = scanner->scan(text.substr(at), true, draft);
@@ -116,11 +110,10 @@ Status Document::read(FileFormat format, Bytes bytes) {
     }
     at += *taken;
     positions.insert(positions.end(), draft.points().begin(), draft.points().end());
-    if (positions.size() / 3 > max_vertices || polygons.too_large()) {
-      return too_large({scanner->place(), ": more than ", max_vertices, " vertices, ",
-                        PolygonCollector::max_corners, " corners of faces (",
-                        PolygonCollector::max_textured_corners, " with texture coordinates) or ",
-                        PolygonCollector::max_texcoords, " texture coordinates"});
+    if (positions.size() / 3 > kMaxVertices || polygons.too_large()) {
+      return too_large({scanner->place(), ": more than ", kMaxVertices, " vertices, ", PolygonCollector::kMaxCorners,
+                        " corners of faces (", PolygonCollector::kMaxTexturedCorners, " with texture coordinates) or ",
+                        PolygonCollector::kMaxTexcoords, " texture coordinates"});
     }
   }
   Status status = scanner->finish();
@@ -155,8 +148,8 @@ Status Document::assign(std::span<const double> positions, std::span<const std::
 Status Document::assign_texcoords(std::span<const double> texcoords) {
   const std::size_t corners = mesh_.face_vertices.size();
   if (texcoords.size() != 2 * corners) {
-    return invalid({"texture coordinates has ", texcoords.size(),
-                    " numbers; expected 2 for each of ", corners, " corners"});
+    return invalid(
+        {"texture coordinates has ", texcoords.size(), " numbers; expected 2 for each of ", corners, " corners"});
   }
   Status finite = check_finite(texcoords, "texture coordinates");
   if (!finite.ok()) {
@@ -179,8 +172,7 @@ Result<Bytes> Document::write(FileFormat format, std::span<const double> positio
     return checked;
   }
   if (positions.size() != mesh_.positions.size()) {
-    return invalid({"positions has ", positions.size() / 3, " vertices; the document has ",
-                    mesh_.vertex_count()});
+    return invalid({"positions has ", positions.size() / 3, " vertices; the document has ", mesh_.vertex_count()});
   }
   if (format == format_ && !source_.empty()) {
     return rewrite(positions);
@@ -193,7 +185,7 @@ Result<Bytes> Document::rewrite(std::span<const double> positions) const {
   Bytes out;
   const std::unique_ptr<Scanner> scanner = make_scanner(format_, nullptr);
   const std::string_view text = text_of(source_);
-  Draft draft(piece_size);
+  Draft draft(kPieceSize);
   std::size_t done = 0;
   for (std::size_t at = 0; at < text.size();) {
     draft.clear();
@@ -203,8 +195,7 @@ Result<Bytes> Document::rewrite(std::span<const double> positions) const {
     }
     at += *taken;
     if (out.capacity() == 0) {  // the first piece has shown how numbers are written
-      Status reserved =
-          reserve(out, std::uint64_t{source_.size()} + draft.longest_number() * positions.size());
+      Status reserved = reserve(out, std::uint64_t{source_.size()} + draft.longest_number() * positions.size());
       if (!reserved.ok()) {
         return reserved;
       }

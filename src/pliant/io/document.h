@@ -16,10 +16,10 @@ namespace pliant::io {
 
 class Document {
  public:
-  static constexpr std::size_t max_bytes = std::size_t{384} << 20;
+  static constexpr std::size_t kMaxBytes = std::size_t{384} << 20;
 
   /// Reads a file. After an error the document is what it was before.
-  /// Errors: parse_error (line or byte, and the reason), too_large (max_bytes, or more vertices,
+  /// Errors: parse_error (line or byte, and the reason), too_large (`kMaxBytes`, or more vertices,
   /// corners or texture coordinates than Shape and PolygonCollector admit).
   Status read(FileFormat format, Bytes bytes);
 

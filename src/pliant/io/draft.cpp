@@ -40,14 +40,14 @@ std::array<double, 3> unit_normal(const double* corners) {
 std::size_t Draft::longest_number() const {
   switch (style_) {
     case NumberStyle::text:
-      return longest_text;
+      return kLongestText;
     case NumberStyle::double_little:
     case NumberStyle::double_big:
       return sizeof(double);
     case NumberStyle::float_little:
       return sizeof(float);
   }
-  return longest_text;
+  return kLongestText;
 }
 
 void Draft::clear() { rewind({0, 0, 0}); }
@@ -59,8 +59,7 @@ void Draft::rewind(const Mark& mark) {
 }
 
 void Draft::coordinate(double value) {
-  places_.push_back(
-      {static_cast<std::uint32_t>(kept_.size()), static_cast<std::int32_t>(points_.size())});
+  places_.push_back({static_cast<std::uint32_t>(kept_.size()), static_cast<std::int32_t>(points_.size())});
   points_.push_back(value);
 }
 

@@ -20,10 +20,9 @@ enum class NumberStyle { text, double_little, double_big, float_little };
 class Draft {
  public:
   /// `soft_limit`: the bytes after which the draft calls itself full.
-  explicit Draft(std::size_t soft_limit = std::numeric_limits<std::size_t>::max())
-      : soft_limit_(soft_limit) {}
+  explicit Draft(std::size_t soft_limit = std::numeric_limits<std::size_t>::max()) : soft_limit_(soft_limit) {}
 
-  static constexpr std::size_t longest_text = 24;  ///< -1.2345678901234567e-308
+  static constexpr std::size_t kLongestText = 24;  ///< -1.2345678901234567e-308
 
   void clear();
   /// The bytes a coordinate takes at most.

@@ -17,8 +17,8 @@ Result<FileFormat> format_from_name(std::string_view name) {
       return format;
     }
   }
-  return Status(ErrorCode::invalid_option, message({"format is \"", name.substr(0, 40),
-                                                    "\"; expected obj, ply, off, stl or xyz"}));
+  return Status(ErrorCode::invalid_option,
+                message({"format is \"", name.substr(0, 40), "\"; expected obj, ply, off, stl or xyz"}));
 }
 
 }  // namespace pliant::io

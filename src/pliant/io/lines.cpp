@@ -49,8 +49,7 @@ std::string quoted(std::string_view word) {
   return text + (word.size() > 40 ? "...\"" : "\"");
 }
 
-std::size_t LineScanner::record_end(std::string_view text, std::size_t at, bool last,
-                                    std::uint64_t& lines) const {
+std::size_t LineScanner::record_end(std::string_view text, std::size_t at, bool last, std::uint64_t& lines) const {
   std::size_t end = line_end(text, at, last);
   for (lines = 1; end != std::string_view::npos && continues(text.substr(at, end - at)); ++lines) {
     if (end == text.size()) {
@@ -86,8 +85,7 @@ Result<std::size_t> LineScanner::scan(std::string_view input, bool last, Draft& 
   return at;
 }
 
-Status TextScanner::take_point(std::string_view line, std::size_t& kept, std::size_t& at,
-                               Draft& draft) {
+Status TextScanner::take_point(std::string_view line, std::size_t& kept, std::size_t& at, Draft& draft) {
   constexpr const char* axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view word = next_word(line, at);

@@ -21,9 +21,7 @@ bool is_blank(char c);
 std::string_view next_word(std::string_view text, std::size_t& at);
 
 /// The line up to its comment, if any.
-inline std::string_view without_comment(std::string_view line) {
-  return line.substr(0, line.find('#'));
-}
+inline std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
 /// A word of a file fit for a message: at most 40 characters, unprintable ones replaced.
 std::string quoted(std::string_view word);
@@ -55,8 +53,7 @@ class LineScanner : public TextScanner {
   virtual bool continues(std::string_view /*line*/) const { return false; }
 
  private:
-  std::size_t record_end(std::string_view text, std::size_t at, bool last,
-                         std::uint64_t& lines) const;
+  std::size_t record_end(std::string_view text, std::size_t at, bool last, std::uint64_t& lines) const;
 
   bool at_start_ = true;
 };

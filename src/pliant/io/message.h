@@ -16,8 +16,7 @@ class Piece {
   Piece(const std::string& text) : text_(text) {}
   Piece(std::string_view text) : text_(text) {}
   Piece(double number) : kind_(Kind::real), real_(number) {}
-  Piece(std::integral auto number)
-      : kind_(Kind::whole), whole_(static_cast<std::int64_t>(number)) {}
+  Piece(std::integral auto number) : kind_(Kind::whole), whole_(static_cast<std::int64_t>(number)) {}
 
   void append_to(std::string& out) const;
 

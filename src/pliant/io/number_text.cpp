@@ -67,8 +67,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
   if (digits == 0) {
     return std::nullopt;
   }
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E') &&
-      !take_exponent(text, at, decimal)) {
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E') && !take_exponent(text, at, decimal)) {
     return std::nullopt;
   }
   if (at != text.size()) {
@@ -79,10 +78,10 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
 
 __extension__ using Wide = unsigned __int128;
 
-constexpr int largest_exact_power = 27;  // 5^27 < 2^63
+constexpr int kLargestExactPower = 27;  // 5^27 < 2^63
 
-constexpr std::array<std::uint64_t, largest_exact_power + 1> powers_of_five() {
-  std::array<std::uint64_t, largest_exact_power + 1> powers{1};
+constexpr std::array<std::uint64_t, kLargestExactPower + 1> powers_of_five() {
+  std::array<std::uint64_t, kLargestExactPower + 1> powers{1};
   for (std::size_t i = 1; i < powers.size(); ++i) {
     powers[i] = 5 * powers[i - 1];
   }
@@ -93,8 +92,7 @@ constexpr std::array<std::uint64_t, largest_exact_power + 1> powers_of_five() {
 /// the result within the range of normal doubles.
 double round_to_double(Wide value, bool inexact, int exponent) {
   const auto high = static_cast<std::uint64_t>(value >> 64);
-  const int bits =
-      high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(std::uint64_t(value));
+  const int bits = high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(std::uint64_t(value));
   const int shift = bits - 53;
   if (shift <= 0) {
     return std::ldexp(static_cast<double>(std::uint64_t(value)), exponent);
@@ -113,7 +111,7 @@ double round_to_double(Wide value, bool inexact, int exponent) {
 /// Nothing for other numbers. In WASM several times as fast as strtod.
 std::optional<double> convert_in_integers(const Decimal& decimal) {
   constexpr auto powers = powers_of_five();
-  if (!decimal.exact || std::abs(decimal.exponent) > largest_exact_power) {
+  if (!decimal.exact || std::abs(decimal.exponent) > kLargestExactPower) {
     return std::nullopt;
   }
   if (decimal.mantissa == 0) {
@@ -181,8 +179,7 @@ std::optional<std::uint64_t> read_count(std::string_view text) {
 void append_number(Bytes& out, double value) {
   char text[32];
 #if defined(__cpp_lib_to_chars)
-  const auto [end, error] =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17);
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17);
   out.insert(out.end(), text, end);
 #else
   const int length = std::snprintf(text, sizeof text, "%.17g", value);

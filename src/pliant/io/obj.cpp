@@ -63,8 +63,7 @@ bool is_readable_corner(std::string_view word) {
   return is_digit(word.back());
 }
 
-Status ObjFaceReader::add(std::string_view words, std::uint64_t line,
-                          std::uint64_t vertices_before) {
+Status ObjFaceReader::add(std::string_view words, std::uint64_t line, std::uint64_t vertices_before) {
   constexpr std::size_t batch = 1 << 16;
   const auto fail = [line](Pieces reason) {
     return Status(ErrorCode::parse_error, message({"line ", line, ": ", message(reason)}));
@@ -96,8 +95,7 @@ Status ObjFaceReader::flush() {
   return error_;
 }
 
-std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind,
-                                                    std::uint64_t before) {
+std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind, std::uint64_t before) {
   if (id > 0) {
     return static_cast<std::uint32_t>(id - 1);
   }
@@ -105,10 +103,9 @@ std::optional<std::uint32_t> ObjFaceReader::resolve(int id, const char* kind,
   if (id < 0 && back <= before) {
     return static_cast<std::uint32_t>(before - back);
   }
-  const std::string reason =
-      id == 0 ? "; ids count from 1" : message({"; ", before, " stand before it"});
-  error_ = {ErrorCode::parse_error, message({"line ", origins_[current_].line, ": face refers to ",
-                                             kind, " ", id, reason})};
+  const std::string reason = id == 0 ? "; ids count from 1" : message({"; ", before, " stand before it"});
+  error_ = {ErrorCode::parse_error,
+            message({"line ", origins_[current_].line, ": face refers to ", kind, " ", id, reason})};
   return std::nullopt;
 }
 
@@ -119,7 +116,7 @@ void ObjFaceReader::face(std::span<const ObjCorner> corners) {
       return;
     }
     const auto vertex = resolve(corner.vertex, "vertex", origin.vertices);
-    std::optional<std::uint32_t> texcoord = PolygonMesh::no_texcoord;
+    std::optional<std::uint32_t> texcoord = PolygonMesh::kNoTexcoord;
     if (corner.texcoord != 0) {
       texcoord = resolve(corner.texcoord, "texture coordinate", origin.texcoords);
     }
@@ -199,8 +196,7 @@ Status ObjScanner::read_texcoord(std::string_view line, std::size_t at) {
     }
     const std::optional<double> value = read_number(word);
     if (!value) {
-      return failure(
-          {"texture coordinate is ", quoted(word), "; expected a finite decimal number"});
+      return failure({"texture coordinate is ", quoted(word), "; expected a finite decimal number"});
     }
     uv[i] = *value;
   }
@@ -242,9 +238,7 @@ Status ObjScanner::finish() {
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_obj_scanner(PolygonCollector* polygons) {
-  return std::make_unique<ObjScanner>(polygons);
-}
+std::unique_ptr<Scanner> make_obj_scanner(PolygonCollector* polygons) { return std::make_unique<ObjScanner>(polygons); }
 
 void write_obj(const PolygonMesh& mesh, std::span<const double> positions, Bytes& out) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -265,7 +259,7 @@ void write_obj(const PolygonMesh& mesh, std::span<const double> positions, Bytes
       if (mesh.corner_texcoords.empty()) {
         continue;
       }
-      if (mesh.corner_texcoords[c] == PolygonMesh::no_texcoord) {
+      if (mesh.corner_texcoords[c] == PolygonMesh::kNoTexcoord) {
         continue;
       }
       out.push_back('/');

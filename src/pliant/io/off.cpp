@@ -159,11 +159,10 @@ Status OffScanner::read_face(std::string_view words) {
     }
     const std::optional<std::uint64_t> id = read_count(word);
     if (!id || *id >= vertex_count_) {
-      return failure(
-          {"face refers to vertex ", quoted(word), "; expected ids from 0 to ", vertex_count_ - 1});
+      return failure({"face refers to vertex ", quoted(word), "; expected ids from 0 to ", vertex_count_ - 1});
     }
     const auto vertex = static_cast<std::uint32_t>(*id);
-    polygons_->corner(vertex, has_texcoords_ ? vertex : PolygonMesh::no_texcoord, line_);
+    polygons_->corner(vertex, has_texcoords_ ? vertex : PolygonMesh::kNoTexcoord, line_);
   }
   polygons_->end_polygon();
   return {};
@@ -190,9 +189,7 @@ Status OffScanner::finish() {
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_off_scanner(PolygonCollector* polygons) {
-  return std::make_unique<OffScanner>(polygons);
-}
+std::unique_ptr<Scanner> make_off_scanner(PolygonCollector* polygons) { return std::make_unique<OffScanner>(polygons); }
 
 void write_off(const PolygonMesh& mesh, std::span<const double> positions, Bytes& out) {
   append(out, "OFF\n");

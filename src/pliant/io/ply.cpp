@@ -121,13 +121,11 @@ void PlyScanner::set_up(Draft& draft) {
 }
 
 Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, Draft& draft) {
-  constexpr NumberStyle styles[] = {NumberStyle::text, NumberStyle::double_little,
-                                    NumberStyle::double_big};
+  constexpr NumberStyle styles[] = {NumberStyle::text, NumberStyle::double_little, NumberStyle::double_big};
   draft.set_style(styles[static_cast<int>(header_->encoding)]);
   const PlyElement& element = header_->elements[element_];
   blank_ = false;
-  Result<std::size_t> size =
-      is_text() ? read_text(element, input, last) : read_binary(element, input);
+  Result<std::size_t> size = is_text() ? read_text(element, input, last) : read_binary(element, input);
   if (!size.ok() || *size == 0) {
     return size;
   }
@@ -145,8 +143,7 @@ Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, D
   return size;
 }
 
-Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string_view input,
-                                          bool last) {
+Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string_view input, bool last) {
   const std::size_t end = line_end(input, 0, last);
   if (end == std::string_view::npos || end == 0) {
     return std::size_t{0};
@@ -250,7 +247,7 @@ Status PlyScanner::add_polygon(std::span<const double> ids, std::span<const doub
     if (!id.ok()) {
       return id.status();
     }
-    std::uint32_t texcoord = vertex_texcoords_ ? *id : PolygonMesh::no_texcoord;
+    std::uint32_t texcoord = vertex_texcoords_ ? *id : PolygonMesh::kNoTexcoord;
     if (own_texcoords && !vertex_texcoords_) {
       if (!std::isfinite(texcoords[2 * i]) || !std::isfinite(texcoords[2 * i + 1])) {
         return failure({"a texture coordinate is not finite"});
@@ -280,7 +277,7 @@ Status PlyScanner::add_strips(std::span<const double> ids) {
     if (length >= 2) {
       const std::size_t first = length % 2;
       for (const std::uint32_t corner : {before[first], before[1 - first], *id}) {
-        polygons_->corner(corner, vertex_texcoords_ ? corner : PolygonMesh::no_texcoord, where_);
+        polygons_->corner(corner, vertex_texcoords_ ? corner : PolygonMesh::kNoTexcoord, where_);
       }
       polygons_->end_polygon();
     }
@@ -308,8 +305,7 @@ void PlyScanner::skip_finished_elements() {
 
 Status PlyScanner::ends_early() const {
   const PlyElement& element = header_->elements[element_];
-  return failure({"the file ends after ", index_, " of ", element.count, " records of element ",
-                  quoted(element.name)});
+  return failure({"the file ends after ", index_, " of ", element.count, " records of element ", quoted(element.name)});
 }
 
 Status PlyScanner::finish() {
@@ -329,9 +325,7 @@ Status PlyScanner::finish() {
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_ply_scanner(PolygonCollector* polygons) {
-  return std::make_unique<PlyScanner>(polygons);
-}
+std::unique_ptr<Scanner> make_ply_scanner(PolygonCollector* polygons) { return std::make_unique<PlyScanner>(polygons); }
 
 void write_ply(const PolygonMesh& mesh, std::span<const double> positions, Bytes& out) {
   const bool textured = !mesh.corner_texcoords.empty();

@@ -10,18 +10,18 @@
 namespace pliant::io {
 namespace {
 
-constexpr std::size_t npos = std::string_view::npos;
+constexpr std::size_t kNpos = std::string_view::npos;
 
 /// The first line says how lines end; in a binary file the byte behind end_header could be any, so
 /// the endings cannot be mixed. npos when that is not known yet.
 std::size_t header_line_end(std::string_view text, std::size_t at) {
   const std::size_t first = text.find_first_of("\r\n");
-  if (first == npos || (text[first] == '\r' && first + 1 == text.size())) {
-    return npos;
+  if (first == kNpos || (text[first] == '\r' && first + 1 == text.size())) {
+    return kNpos;
   }
   const bool lone_return = text[first] == '\r' && text[first + 1] != '\n';
   const std::size_t end = text.find(lone_return ? '\r' : '\n', at);
-  return end == npos ? npos : end + 1;
+  return end == kNpos ? kNpos : end + 1;
 }
 
 std::optional<PlyType> type_from_name(std::string_view name) {
@@ -29,11 +29,10 @@ std::optional<PlyType> type_from_name(std::string_view name) {
     std::string_view name, alias;
     PlyType type;
   };
-  constexpr Named types[] = {
-      {"char", "int8", PlyType::int8},        {"uchar", "uint8", PlyType::uint8},
-      {"short", "int16", PlyType::int16},     {"ushort", "uint16", PlyType::uint16},
-      {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
-      {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64}};
+  constexpr Named types[] = {{"char", "int8", PlyType::int8},        {"uchar", "uint8", PlyType::uint8},
+                             {"short", "int16", PlyType::int16},     {"ushort", "uint16", PlyType::uint16},
+                             {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
+                             {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64}};
   for (const Named& known : types) {
     if (name == known.name || name == known.alias) {
       return known.type;
@@ -47,12 +46,11 @@ PlyRole vertex_role(const PlyProperty& property) {
     std::string_view name;
     PlyRole role;
   };
-  constexpr Named names[] = {
-      {"x", PlyRole::x},         {"y", PlyRole::y},         {"z", PlyRole::z},
-      {"nx", PlyRole::drop},     {"ny", PlyRole::drop},     {"nz", PlyRole::drop},
-      {"u", PlyRole::u},         {"v", PlyRole::v},         {"s", PlyRole::u},
-      {"t", PlyRole::v},         {"texture_u", PlyRole::u}, {"texture_v", PlyRole::v},
-      {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}};
+  constexpr Named names[] = {{"x", PlyRole::x},         {"y", PlyRole::y},         {"z", PlyRole::z},
+                             {"nx", PlyRole::drop},     {"ny", PlyRole::drop},     {"nz", PlyRole::drop},
+                             {"u", PlyRole::u},         {"v", PlyRole::v},         {"s", PlyRole::u},
+                             {"t", PlyRole::v},         {"texture_u", PlyRole::u}, {"texture_v", PlyRole::v},
+                             {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}};
   for (const Named& known : names) {
     if (property.name == known.name && !property.is_list) {
       return known.role;
@@ -132,8 +130,7 @@ Status HeaderParser::parse_line(std::string_view line) {
   if (std::find(std::begin(others), std::end(others), keyword) != std::end(others)) {
     return {};
   }
-  return failure({"found ", quoted(keyword),
-                  "; expected format, element, property, comment, obj_info or end_header"});
+  return failure({"found ", quoted(keyword), "; expected format, element, property, comment, obj_info or end_header"});
 }
 
 Status HeaderParser::parse_format(std::string_view line, std::size_t at) {
@@ -146,8 +143,7 @@ Status HeaderParser::parse_format(std::string_view line, std::size_t at) {
   } else if (name == "binary_big_endian") {
     header_.encoding = PlyEncoding::binary_big;
   } else {
-    return failure({"format is ", quoted(name),
-                    "; expected ascii, binary_little_endian or binary_big_endian"});
+    return failure({"format is ", quoted(name), "; expected ascii, binary_little_endian or binary_big_endian"});
   }
   return {};
 }
@@ -158,8 +154,7 @@ Status HeaderParser::parse_element(std::string_view line, std::size_t at) {
   const std::string_view word = next_word(line, at);
   const std::optional<std::uint64_t> count = read_count(word);
   if (!count) {
-    return failure({"the count of element ", quoted(element.name), " is ", quoted(word),
-                    "; expected a whole number"});
+    return failure({"the count of element ", quoted(element.name), " is ", quoted(word), "; expected a whole number"});
   }
   element.count = *count;
   for (const PlyElement& other : header_.elements) {
@@ -183,8 +178,7 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
     const std::string_view count_name = next_word(line, at);
     const std::optional<PlyType> count_type = type_from_name(count_name);
     if (!count_type || *count_type >= PlyType::float32) {
-      return failure(
-          {"the counts of a list are ", quoted(count_name), "; expected an integer type"});
+      return failure({"the counts of a list are ", quoted(count_name), "; expected an integer type"});
     }
     property.count_type = *count_type;
     type_name = next_word(line, at);
@@ -255,7 +249,7 @@ std::size_t ply_header_size(std::string_view text) {
   std::size_t at = 0;
   while (true) {
     const std::size_t end = header_line_end(text, at);
-    if (end == npos) {
+    if (end == kNpos) {
       return 0;
     }
     std::size_t word_at = 0;

@@ -44,8 +44,8 @@ std::string wrong_number(const PlyProperty& property, std::string_view word) {
 }
 
 /// Takes `count` words of a property from the line; reads them if the property has a role.
-std::string take_words(const PlyProperty& property, std::uint64_t count, std::string_view line,
-                       std::size_t& at, PlyRecord& record) {
+std::string take_words(const PlyProperty& property, std::uint64_t count, std::string_view line, std::size_t& at,
+                       PlyRecord& record) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::string_view word = next_word(line, at);
     if (word.empty()) {
@@ -65,8 +65,7 @@ std::string take_words(const PlyProperty& property, std::uint64_t count, std::st
 
 }  // namespace
 
-std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::string_view input,
-                            std::string& error) {
+std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::string_view input, std::string& error) {
   std::uint64_t size = 0;  // 64 bits: a list may claim more than WASM can address
   for (const PlyProperty& property : element.properties) {
     std::uint64_t count = 1;
@@ -75,8 +74,7 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
       if (size + count_size > input.size()) {
         return 0;
       }
-      const double value =
-          load_number(&input[static_cast<std::size_t>(size)], property.count_type, big_endian);
+      const double value = load_number(&input[static_cast<std::size_t>(size)], property.count_type, big_endian);
       if (value < 0) {
         error = message({"list ", quoted(property.name), " has a negative count"});
         return 0;
@@ -92,8 +90,7 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
   return static_cast<std::size_t>(size);
 }
 
-void read_binary_record(const PlyElement& element, bool big_endian, std::string_view input,
-                        PlyRecord& record) {
+void read_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record) {
   record.fields.clear();
   record.values.clear();
   std::size_t at = 0;
@@ -108,8 +105,7 @@ void read_binary_record(const PlyElement& element, bool big_endian, std::string_
     const std::size_t size = ply_size(property.type);
     if (has_values(property)) {
       for (std::size_t i = 0; i < count; ++i) {
-        record.values.push_back(
-            load_number(input.data() + at + i * size, property.type, big_endian));
+        record.values.push_back(load_number(input.data() + at + i * size, property.type, big_endian));
       }
     }
     at += count * size;
@@ -132,8 +128,8 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
       const std::string_view word = next_word(line, at);
       const std::optional<std::uint64_t> length = read_count(word);
       if (!length) {
-        return message({"the count of list ", quoted(property.name), " is ", quoted(word),
-                        "; expected a whole number"});
+        return message(
+            {"the count of list ", quoted(property.name), " is ", quoted(word), "; expected a whole number"});
       }
       count = *length;
     }
@@ -147,8 +143,8 @@ std::string read_text_record(const PlyElement& element, std::string_view line, P
   if (extra.empty()) {
     return {};
   }
-  return message({"found ", quoted(extra), " behind the ", element.properties.size(),
-                  " properties of element ", element.name});
+  return message(
+      {"found ", quoted(extra), " behind the ", element.properties.size(), " properties of element ", element.name});
 }
 
 }  // namespace pliant::io

@@ -14,11 +14,11 @@ void PolygonCollector::Largest::see(std::uint32_t other, std::uint64_t at) {
 void PolygonCollector::corner(std::uint32_t vertex, std::uint32_t texcoord, std::uint64_t where) {
   vertex_.see(vertex, where);
   mesh_.face_vertices.push_back(vertex);
-  if (texcoord != PolygonMesh::no_texcoord) {
+  if (texcoord != PolygonMesh::kNoTexcoord) {
     texcoord_.see(texcoord, where);
     if (!textured_) {
       textured_ = true;
-      mesh_.corner_texcoords.assign(mesh_.face_vertices.size() - 1, PolygonMesh::no_texcoord);
+      mesh_.corner_texcoords.assign(mesh_.face_vertices.size() - 1, PolygonMesh::kNoTexcoord);
     }
   }
   if (textured_) {
@@ -39,20 +39,16 @@ void PolygonCollector::end_polygon() {
   }
 }
 
-void PolygonCollector::texcoord(double u, double v) {
-  mesh_.texcoords.insert(mesh_.texcoords.end(), {u, v});
-}
+void PolygonCollector::texcoord(double u, double v) { mesh_.texcoords.insert(mesh_.texcoords.end(), {u, v}); }
 
 Status PolygonCollector::finish(std::uint64_t vertex_count, const char* unit, int first_id) const {
-  const auto check = [&](const Largest& largest, std::uint64_t count, const char* kind,
-                         const char* plural) -> Status {
+  const auto check = [&](const Largest& largest, std::uint64_t count, const char* kind, const char* plural) -> Status {
     if (!largest.any || largest.id < count) {
       return {};
     }
     return {ErrorCode::parse_error,
-            message({unit, " ", largest.where, ": face refers to ", kind, " ",
-                     largest.id + std::uint64_t(first_id), "; the file has ", count, " ", plural,
-                     first_id == 0 ? ", counted from 0" : ""})};
+            message({unit, " ", largest.where, ": face refers to ", kind, " ", largest.id + std::uint64_t(first_id),
+                     "; the file has ", count, " ", plural, first_id == 0 ? ", counted from 0" : ""})};
   };
   Status vertices = check(vertex_, vertex_count, "vertex", "vertices");
   if (!vertices.ok()) {

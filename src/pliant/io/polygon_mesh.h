@@ -14,7 +14,7 @@ namespace pliant::io {
 /// The corners of all polygons stand in one list; polygon f is corners
 /// face_offsets[f] .. face_offsets[f + 1], at least three of them.
 struct PolygonMesh {
-  static constexpr std::uint32_t no_texcoord = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNoTexcoord = 0xFFFFFFFF;
 
   std::vector<double> positions;                ///< 3 n, in the file's unit and order
   std::vector<std::uint32_t> face_vertices;     ///< a vertex id a corner
@@ -28,7 +28,7 @@ struct PolygonMesh {
   /// (u, v) of a corner, where corner_texcoords is not empty; (0, 0) where the corner has none.
   std::array<double, 2> corner_texcoord(std::size_t corner) const {
     const std::size_t id = corner_texcoords[corner];
-    if (id == no_texcoord) {
+    if (id == kNoTexcoord) {
       return {0.0, 0.0};
     }
     return {texcoords[2 * id], texcoords[2 * id + 1]};
@@ -40,9 +40,9 @@ struct PolygonMesh {
 class PolygonCollector {
  public:
   /// Beyond this the 2 GB of a WASM module's memory run out.
-  static constexpr std::size_t max_corners = 48'000'000;
-  static constexpr std::size_t max_textured_corners = 24'000'000;
-  static constexpr std::size_t max_texcoords = 16'000'000;
+  static constexpr std::size_t kMaxCorners = 48'000'000;
+  static constexpr std::size_t kMaxTexturedCorners = 24'000'000;
+  static constexpr std::size_t kMaxTexcoords = 16'000'000;
 
   /// Adds a corner to the polygon under way. `where`: line or byte, for messages.
   void corner(std::uint32_t vertex, std::uint32_t texcoord, std::uint64_t where);
@@ -52,13 +52,10 @@ class PolygonCollector {
   void texcoord(double u, double v);
 
   bool too_large() const {
-    return mesh_.face_vertices.size() > max_corners ||
-           mesh_.corner_texcoords.size() > max_textured_corners ||
-           mesh_.texcoords.size() > 2 * max_texcoords;
+    return mesh_.face_vertices.size() > kMaxCorners || mesh_.corner_texcoords.size() > kMaxTexturedCorners ||
+           mesh_.texcoords.size() > 2 * kMaxTexcoords;
   }
-  std::uint32_t texcoord_count() const {
-    return static_cast<std::uint32_t>(mesh_.texcoords.size() / 2);
-  }
+  std::uint32_t texcoord_count() const { return static_cast<std::uint32_t>(mesh_.texcoords.size() / 2); }
 
   /// Checks every id against the counts. For the message: `unit` of places, "line" or "byte", and
   /// the id the format gives the first vertex. Errors: parse_error.

@@ -29,8 +29,8 @@ void Rewriter::open(FileFormat format) {
 
 Status Rewriter::push(ByteView piece, bool last) {
   if (state_ != State::pushing) {
-    const char* reason = state_ == State::closed ? "push without an open file"
-                                                 : "push before the last piece was emitted";
+    const char* reason =
+        state_ == State::closed ? "push without an open file" : "push before the last piece was emitted";
     return {ErrorCode::invalid_option, reason};
   }
   draft_.clear();
@@ -54,11 +54,10 @@ Status Rewriter::scan(bool last) {
   if (last) {
     return scanner_->finish();
   }
-  if (pending_.size() <= max_record) {
+  if (pending_.size() <= kMaxRecord) {
     return {};
   }
-  return {ErrorCode::parse_error,
-          message({scanner_->place(), ": a record of more than ", max_record, " bytes"})};
+  return {ErrorCode::parse_error, message({scanner_->place(), ": a record of more than ", kMaxRecord, " bytes"})};
 }
 
 Status Rewriter::emit(std::span<const double> coordinates, Bytes& out) {

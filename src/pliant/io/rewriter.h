@@ -20,7 +20,7 @@ namespace pliant::io {
 class Rewriter {
  public:
   /// A record (a line, a facet, a PLY record) may have this many bytes.
-  static constexpr std::size_t max_record = std::size_t{16} << 20;
+  static constexpr std::size_t kMaxRecord = std::size_t{16} << 20;
 
   /// Starts a file; what an earlier one left is forgotten.
   void open(FileFormat format);

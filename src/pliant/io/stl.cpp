@@ -11,9 +11,9 @@
 namespace pliant::io {
 namespace {
 
-constexpr std::size_t npos = std::string_view::npos;
-constexpr std::size_t header_size = 84;
-constexpr std::size_t facet_size = 50;
+constexpr std::size_t kNpos = std::string_view::npos;
+constexpr std::size_t kHeaderSize = 84;
+constexpr std::size_t kFacetSize = 50;
 
 /// The facet of the three vertices that end at `vertices`, as a polygon.
 void collect_facet(PolygonCollector* polygons, std::uint64_t vertices, std::uint64_t where) {
@@ -21,7 +21,7 @@ void collect_facet(PolygonCollector* polygons, std::uint64_t vertices, std::uint
     return;
   }
   for (std::uint64_t v = vertices - 3; v < vertices; ++v) {
-    polygons->corner(static_cast<std::uint32_t>(v), PolygonMesh::no_texcoord, where);
+    polygons->corner(static_cast<std::uint32_t>(v), PolygonMesh::kNoTexcoord, where);
   }
   polygons->end_polygon();
 }
@@ -64,8 +64,8 @@ Result<std::size_t> TextStlScanner::scan(std::string_view input, bool last, Draf
     const std::uint64_t vertices_before = vertices_;
     std::size_t end = at;
     do {
-      const std::size_t next = end < input.size() ? line_end(input, end, last) : npos;
-      if (next == npos) {
+      const std::size_t next = end < input.size() ? line_end(input, end, last) : kNpos;
+      if (next == kNpos) {
         if (last) {
           return failure({"the file ends inside a facet"});
         }
@@ -101,14 +101,13 @@ Status TextStlScanner::scan_line(std::string_view line, Draft& draft) {
   if (in_facet_ && keyword == "endfacet") {
     return end_facet();
   }
-  const bool known = in_facet_ ? keyword == "outer" || keyword == "endloop"
-                               : keyword == "solid" || keyword == "endsolid";
+  const bool known =
+      in_facet_ ? keyword == "outer" || keyword == "endloop" : keyword == "solid" || keyword == "endsolid";
   if (known || keyword.empty()) {
     return {};
   }
-  return failure(
-      {"found ", quoted(word), "; expected ",
-       (in_facet_ ? "outer loop, vertex, endloop or endfacet" : "solid, facet or endsolid")});
+  return failure({"found ", quoted(word), "; expected ",
+                  (in_facet_ ? "outer loop, vertex, endloop or endfacet" : "solid, facet or endsolid")});
 }
 
 /// The old normal's numbers are not read: some writers put nan there.
@@ -160,9 +159,7 @@ class BinaryStlScanner final : public Scanner {
 
  private:
   Status scan_facet(std::string_view facet, Draft& draft);
-  Status ends_early() const {
-    return failure({"the file ends inside facet ", facets_ + 1, " of ", count_});
-  }
+  Status ends_early() const { return failure({"the file ends inside facet ", facets_ + 1, " of ", count_}); }
 
   PolygonCollector* polygons_;
   std::uint64_t offset_ = 0;
@@ -174,23 +171,22 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
   draft.set_style(NumberStyle::float_little);
   std::size_t at = 0;
   if (offset_ == 0) {
-    if (input.size() < header_size) {
+    if (input.size() < kHeaderSize) {
       if (!last) {
         return std::size_t{0};
       }
-      return failure(
-          {"the file ends inside the header of a binary STL (", input.size(), " of 84 bytes)"});
+      return failure({"the file ends inside the header of a binary STL (", input.size(), " of 84 bytes)"});
     }
     count_ = load<std::uint32_t>(&input[80], false);
-    draft.keep(input.substr(0, header_size));
-    offset_ = at = header_size;
+    draft.keep(input.substr(0, kHeaderSize));
+    offset_ = at = kHeaderSize;
   }
-  for (; facets_ < count_ && input.size() - at >= facet_size && !draft.full(); at += facet_size) {
-    Status status = scan_facet(input.substr(at, facet_size), draft);
+  for (; facets_ < count_ && input.size() - at >= kFacetSize && !draft.full(); at += kFacetSize) {
+    Status status = scan_facet(input.substr(at, kFacetSize), draft);
     if (!status.ok()) {
       return status;
     }
-    offset_ += facet_size;
+    offset_ += kFacetSize;
     ++facets_;
   }
   if (facets_ == count_) {  // what follows the facets stays
@@ -198,7 +194,7 @@ Result<std::size_t> BinaryStlScanner::scan(std::string_view input, bool last, Dr
     offset_ += input.size() - at;
     return input.size();
   }
-  if (last && input.size() - at < facet_size) {
+  if (last && input.size() - at < kFacetSize) {
     return ends_early();
   }
   return at;
@@ -241,7 +237,7 @@ class StlScanner final : public Scanner {
 
  private:
   void choose(std::string_view start) {
-    if (start.find('\0') == npos) {
+    if (start.find('\0') == kNpos) {
       actual_ = std::make_unique<TextStlScanner>(polygons_);
     } else {
       actual_ = std::make_unique<BinaryStlScanner>(polygons_);
@@ -254,15 +250,11 @@ class StlScanner final : public Scanner {
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_stl_scanner(PolygonCollector* polygons) {
-  return std::make_unique<StlScanner>(polygons);
-}
+std::unique_ptr<Scanner> make_stl_scanner(PolygonCollector* polygons) { return std::make_unique<StlScanner>(polygons); }
 
-Status write_stl(std::span<const double> positions, std::span<const std::uint32_t> triangles,
-                 Bytes& out) {
+Status write_stl(std::span<const double> positions, std::span<const std::uint32_t> triangles, Bytes& out) {
   if (triangles.empty()) {
-    return {ErrorCode::invalid_shape,
-            "the shape has no faces; expected some, since STL holds nothing else"};
+    return {ErrorCode::invalid_shape, "the shape has no faces; expected some, since STL holds nothing else"};
   }
   Draft facets(1 << 20);
   facets.set_style(NumberStyle::float_little);

@@ -13,7 +13,6 @@ namespace pliant::io {
 
 /// Binary STL, appended to `out`. positions: 3 n. triangles: 3 m vertex ids. Errors: invalid_shape
 /// (no triangles, a coordinate beyond 32 bits).
-Status write_stl(std::span<const double> positions, std::span<const std::uint32_t> triangles,
-                 Bytes& out);
+Status write_stl(std::span<const double> positions, std::span<const std::uint32_t> triangles, Bytes& out);
 
 }  // namespace pliant::io

@@ -84,9 +84,7 @@ inline istream& getline(istream& stream, string& line, char separator) {
 /// No file is ever found: Pliant reads the one it was given and no materials.
 class ifstream : private streambuf, public istream {
  public:
-  explicit ifstream(const char* /*path*/) : streambuf(nullptr, nullptr), istream(this) {
-    setstate(ios::eofbit);
-  }
+  explicit ifstream(const char* /*path*/) : streambuf(nullptr, nullptr), istream(this) { setstate(ios::eofbit); }
 };
 
 /// Where tinyobjloader composes its messages.

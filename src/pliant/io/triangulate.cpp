@@ -89,8 +89,7 @@ void Triangulator::project(std::size_t corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t u = (k + 1) % 3;
       const std::size_t v = (k + 2) % 3;
-      normal[k] +=
-          (a[u] - origin[u]) * (b[v] - origin[v]) - (a[v] - origin[v]) * (b[u] - origin[u]);
+      normal[k] += (a[u] - origin[u]) * (b[v] - origin[v]) - (a[v] - origin[v]) * (b[u] - origin[u]);
     }
   }
   std::size_t axis = 0;

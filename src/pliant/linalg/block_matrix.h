@@ -32,8 +32,7 @@ struct BlockMatrix {
   /// Sets the edges and their scalars (B is 1) from entries in any order; those of one edge are
   /// summed in the order given.
   void sum_off_diagonal(std::vector<std::pair<Edge, double>> entries) {
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     edges.clear();
     off_diagonal.clear();
     for (const auto& [edge, value] : entries) {
@@ -44,13 +43,9 @@ struct BlockMatrix {
       off_diagonal.back() += value;
     }
   }
-  double* diagonal_block(Index j) {
-    return diagonal.data() + static_cast<std::size_t>(j) * block * block;
-  }
+  double* diagonal_block(Index j) { return diagonal.data() + static_cast<std::size_t>(j) * block * block; }
   double* edge_block(std::size_t e) { return off_diagonal.data() + e * block * block; }
-  const double* diagonal_block(Index j) const {
-    return diagonal.data() + static_cast<std::size_t>(j) * block * block;
-  }
+  const double* diagonal_block(Index j) const { return diagonal.data() + static_cast<std::size_t>(j) * block * block; }
   const double* edge_block(std::size_t e) const { return off_diagonal.data() + e * block * block; }
 };
 

@@ -21,8 +21,7 @@ void pack(const double* a, std::ptrdiff_t lda, int rows, int depth, double* pack
 
 /// c (4 x 4) -= x y' for two packed tiles of depth `depth`; c = -x y' where it is Fresh.
 template <bool Fresh>
-inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
-                          int depth) {
+inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y, int depth) {
   Vec2 sum[4][2] = {};
   for (int p = 0; p < depth; ++p, x += 4, y += 4) {
     const Vec2 x0 = load2(x), x1 = load2(x + 2);
@@ -41,8 +40,8 @@ inline void subtract_tile(double* c, std::ptrdiff_t ldc, const double* x, const 
 
 /// As subtract_tile, for a tile that is cut off by the border of c.
 template <bool Fresh>
-void subtract_partial_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y,
-                           int depth, int rows, int columns) {
+void subtract_partial_tile(double* c, std::ptrdiff_t ldc, const double* x, const double* y, int depth, int rows,
+                           int columns) {
   double tile[16];
   subtract_tile<true>(tile, 4, x, y, depth);
   for (int j = 0; j < columns; ++j) {
@@ -53,8 +52,7 @@ void subtract_partial_tile(double* c, std::ptrdiff_t ldc, const double* x, const
 
 /// c (rows x columns, its lower trapezoid) -= a a(top)' for a packed a; Fresh: as subtract_tile.
 template <bool Fresh>
-void subtract_packed(double* c, std::ptrdiff_t ldc, const double* packed, int rows, int columns,
-                     int depth) {
+void subtract_packed(double* c, std::ptrdiff_t ldc, const double* packed, int rows, int columns, int depth) {
   for (int j = 0; j < columns; j += 4) {
     const double* y = packed + static_cast<std::ptrdiff_t>(j) * depth;
     const int width = std::min(4, columns - j);
@@ -166,8 +164,7 @@ bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, do
   return true;
 }
 
-void minus_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
-                 int depth, double* packed) {
+void minus_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n, int depth, double* packed) {
   for (int p = 0; p < depth; p += kPanelBlock) {
     const int some = std::min(kPanelBlock, depth - p);
     pack(a + p * lda, lda, n, some, packed);

@@ -50,7 +50,6 @@ inline std::size_t packed_size(std::size_t rows) { return (rows + 3) / 4 * 4 * k
 bool factorize_panel(double* panel, std::ptrdiff_t ld, int rows, int columns, double* packed);
 
 /// c = -a a' in the lower triangle of c (n x n); a is n x depth, depth > 0.
-void minus_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n,
-                 int depth, double* packed);
+void minus_outer(double* c, std::ptrdiff_t ldc, const double* a, std::ptrdiff_t lda, int n, int depth, double* packed);
 
 }  // namespace pliant::dense

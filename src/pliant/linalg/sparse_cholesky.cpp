@@ -28,8 +28,7 @@ bool worth_merging(double width, double zeros, double total) {
 void SparseCholesky::place_nodes(const BlockMatrix& matrix, const std::vector<Index>& order) {
   position_.assign(nodes_, 0);
   for (Index place = 0; place < nodes_; ++place) position_[order[place]] = place;
-  const std::vector<Index> by_tree =
-      postorder(elimination_tree(adjacency_in_order(matrix, position_)));
+  const std::vector<Index> by_tree = postorder(elimination_tree(adjacency_in_order(matrix, position_)));
   for (Index place = 0; place < nodes_; ++place) position_[order[by_tree[place]]] = place;
 }
 
@@ -39,8 +38,7 @@ void SparseCholesky::find_supernodes(const std::vector<std::vector<Index>>& stru
   supernodes_.clear();
   std::vector<double> zeros;  // nodes-squared of explicit zeros in each panel
   for (Index j = 0; j < nodes_; ++j) {
-    const bool continues =
-        j > 0 && parent[j - 1] == j && structure[j - 1].size() == structure[j].size() + 1;
+    const bool continues = j > 0 && parent[j - 1] == j && structure[j - 1].size() == structure[j].size() + 1;
     if (continues) {
       ++supernodes_.back().width;
       supernodes_.back().rows = structure[j];
@@ -53,16 +51,14 @@ void SparseCholesky::find_supernodes(const std::vector<std::vector<Index>>& stru
       zeros.push_back(0.0);
     }
     // The supernode that ends here may swallow the chain of last children before it.
-    const bool ends =
-        j + 1 == nodes_ || parent[j] != j + 1 || structure[j].size() != structure[j + 1].size() + 1;
+    const bool ends = j + 1 == nodes_ || parent[j] != j + 1 || structure[j].size() != structure[j + 1].size() + 1;
     while (ends && supernodes_.size() > 1) {
       Supernode& top = supernodes_.back();
       Supernode& below = supernodes_[supernodes_.size() - 2];
       const bool is_child = !below.rows.empty() && below.rows.front() < top.first + top.width;
       if (!is_child) break;
       const double width = below.width + top.width;
-      const double added = static_cast<double>(below.width) *
-                           (top.height() - static_cast<double>(below.rows.size()));
+      const double added = static_cast<double>(below.width) * (top.height() - static_cast<double>(below.rows.size()));
       const double all_zeros = zeros[zeros.size() - 2] + zeros.back() + added;
       const double total = width * (width + static_cast<double>(top.rows.size()));
       if (!worth_merging(width * block_ / 4.0, all_zeros, total)) break;
@@ -125,13 +121,12 @@ void SparseCholesky::place_entries(const BlockMatrix& matrix) {
     entries_[s].push_back({-1 - j, at, at, false});
   }
   for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
-    const Index column_place = position_[matrix.edges[e][0]],
-                row_place = position_[matrix.edges[e][1]];
+    const Index column_place = position_[matrix.edges[e][0]], row_place = position_[matrix.edges[e][1]];
     const bool transposed = row_place < column_place;
     const Index low = std::min(row_place, column_place), high = std::max(row_place, column_place);
     const Index s = supernode_of_[low];
-    entries_[s].push_back({static_cast<Index>(e), front_row(supernodes_[s], high),
-                           low - supernodes_[s].first, transposed});
+    entries_[s].push_back(
+        {static_cast<Index>(e), front_row(supernodes_[s], high), low - supernodes_[s].first, transposed});
   }
 }
 
@@ -179,10 +174,10 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   link_supernodes();
   const std::array<std::size_t, 2> stacks = stack_sizes();
   const std::size_t bytes = (factor_size_ + stacks[0] + stacks[1]) * sizeof(double);
-  if (bytes > max_bytes) {
-    return {ErrorCode::too_large, "the system of " + std::to_string(rows()) +
-                                      " unknowns needs a factor of " + std::to_string(bytes >> 20) +
-                                      " MiB; expected at most " + std::to_string(max_bytes >> 20)};
+  if (bytes > kMaxBytes) {
+    return {ErrorCode::too_large, "the system of " + std::to_string(rows()) + " unknowns needs a factor of " +
+                                      std::to_string(bytes >> 20) + " MiB; expected at most " +
+                                      std::to_string(kMaxBytes >> 20)};
   }
   place_entries(matrix);
   panels_.clear();
@@ -208,8 +203,8 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
   const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(supernodes_[s].height()) * block_;
   const int b = block_;
   for (const Entry& entry : entries_[s]) {
-    const double* source = entry.source < 0 ? matrix.diagonal_block(-1 - entry.source)
-                                            : matrix.edge_block(entry.source);
+    const double* source =
+        entry.source < 0 ? matrix.diagonal_block(-1 - entry.source) : matrix.edge_block(entry.source);
     double* target = panel + entry.column * b * ld + entry.row * b;
     for (int c = 0; c < b; ++c) {
       if (!entry.transposed) {
@@ -221,8 +216,8 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
   }
 }
 
-void SparseCholesky::extend_add(const Supernode& child, const double* source, double* target,
-                                std::ptrdiff_t ld, Index first, Index last) const {
+void SparseCholesky::extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld,
+                                Index first, Index last) const {
   const std::ptrdiff_t b = block_, n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
   for (std::size_t run = 0; run < child.runs.size(); ++run) {
     const Run& across = child.runs[run];
@@ -233,8 +228,7 @@ void SparseCholesky::extend_add(const Supernode& child, const double* source, do
       const double* from = source + (across.from * b + c) * n;
       // The lower triangle, from the block on the diagonal on.
       const std::ptrdiff_t skipped = c / b * b;
-      dense::add(from + across.from * b + skipped, across.count * b - skipped,
-                 to + across.to * b + skipped);
+      dense::add(from + across.from * b + skipped, across.count * b - skipped, to + across.to * b + skipped);
       for (std::size_t down = run + 1; down < child.runs.size(); ++down) {
         const Run& rows = child.runs[down];
         dense::add(from + rows.from * b, rows.count * b, to + rows.to * b);
@@ -270,8 +264,7 @@ Status SparseCholesky::factorize(const BlockMatrix& matrix) {
     assemble(matrix, s, panel);
     add_children(panel, height, 0, node.width);
     if (!dense::factorize_panel(panel, height, height, columns, packed_.data())) {
-      return {ErrorCode::not_solvable,
-              "the system matrix is not positive definite; expected enough constraints"};
+      return {ErrorCode::not_solvable, "the system matrix is not positive definite; expected enough constraints"};
     }
     if (below == 0) continue;
     dense::minus_outer(update, below, panel + columns, height, below, columns, packed_.data());
@@ -311,8 +304,7 @@ void SparseCholesky::allow_rough() {
 }
 
 template <class Lanes, int Block>
-void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& workspace,
-                                double scale) {
+void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& workspace, double scale) {
   using Scalar = typename Lanes::Scalar;
   constexpr std::size_t stride = Lanes::stride;
   const std::size_t n = static_cast<std::size_t>(rows()), b = Block > 0 ? Block : block_;
@@ -323,15 +315,13 @@ void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& wo
     const double* from = x + j * b;
     Scalar* to = z + position_[j] * b * stride;
     for (std::size_t r = 0; r < b; ++r) {
-      for (int c = 0; c < Lanes::columns; ++c)
-        to[r * stride + c] = static_cast<Scalar>(scale * from[c * n + r]);
+      for (int c = 0; c < Lanes::columns; ++c) to[r * stride + c] = static_cast<Scalar>(scale * from[c * n + r]);
     }
   }
   const Index* row = below_.data();
   for (const Panel& panel : panels_) {
-    dense::forward_panel<Lanes>(
-        factor + panel.factor, static_cast<int>((panel.width + panel.rows) * b),
-        static_cast<int>(panel.width * b), z + panel.first * b * stride, below);
+    dense::forward_panel<Lanes>(factor + panel.factor, static_cast<int>((panel.width + panel.rows) * b),
+                                static_cast<int>(panel.width * b), z + panel.first * b * stride, below);
     const Scalar* from = below;
     for (Index i = 0; i < panel.rows; ++i, ++row) {
       Scalar* to = z + *row * b * stride;
@@ -345,11 +335,9 @@ void SparseCholesky::solve_some(double* x, Workspace<typename Lanes::Scalar>& wo
   for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
     row -= panel->rows;
     Scalar* to = below;
-    for (Index i = 0; i < panel->rows; ++i)
-      to = copy_block(z + row[i] * b * stride, b * stride, to);
-    dense::backward_panel<Lanes>(
-        factor + panel->factor, static_cast<int>((panel->width + panel->rows) * b),
-        static_cast<int>(panel->width * b), z + panel->first * b * stride, below);
+    for (Index i = 0; i < panel->rows; ++i) to = copy_block(z + row[i] * b * stride, b * stride, to);
+    dense::backward_panel<Lanes>(factor + panel->factor, static_cast<int>((panel->width + panel->rows) * b),
+                                 static_cast<int>(panel->width * b), z + panel->first * b * stride, below);
   }
   const double unscale = 1.0 / scale;
   for (Index j = 0; j < nodes_; ++j) {
@@ -379,8 +367,7 @@ void SparseCholesky::solve(double* x, int columns) {
 void SparseCholesky::solve_roughly(double* x) {
   if (rough_.factor == nullptr) return solve(x, 3);
   double largest = 0.0;
-  for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(rows()); ++i)
-    largest = std::max(largest, std::abs(x[i]));
+  for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(rows()); ++i) largest = std::max(largest, std::abs(x[i]));
   // Single precision ends at 1e-38; gradients go below.
   if (largest > 0.0) solve_some<dense::RoughThree, 1>(x, rough_, 1.0 / largest);
 }

@@ -18,7 +18,7 @@ namespace pliant {
 class SparseCholesky {
  public:
   /// Orders the pattern and allocates everything that factorising and solving need.
-  /// Errors: too_large (the factor would take more than `max_bytes`); the object is then unusable.
+  /// Errors: too_large (the factor would take more than `kMaxBytes`); the object is then unusable.
   Status analyze(const BlockMatrix& matrix);
   /// The same along a given fill-reducing order (place -> node), which spares finding one.
   Status analyze(const BlockMatrix& matrix, const std::vector<Index>& order);
@@ -47,7 +47,7 @@ class SparseCholesky {
   /// Scalars stored in L, padding of the dense fronts included.
   std::size_t factor_size() const { return factor_size_; }
 
-  static constexpr std::size_t max_bytes = std::size_t{1} << 30;
+  static constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
  private:
   /// Consecutive rows that stay consecutive in the parent's front.
@@ -83,8 +83,7 @@ class SparseCholesky {
 
   Status prepare(const BlockMatrix& matrix);
   void place_nodes(const BlockMatrix& matrix, const std::vector<Index>& order);
-  void find_supernodes(const std::vector<std::vector<Index>>& structure,
-                       const std::vector<Index>& parent);
+  void find_supernodes(const std::vector<std::vector<Index>>& structure, const std::vector<Index>& parent);
   void link_supernodes();
   void place_entries(const BlockMatrix& matrix);
   std::array<std::size_t, 2> stack_sizes() const;
@@ -96,8 +95,8 @@ class SparseCholesky {
   }
   /// Adds a child's update matrix to the columns [first, last) of its parent's front, from the row
   /// of the first of them on, which lie at `target`.
-  void extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld,
-                  Index first, Index last) const;
+  void extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld, Index first,
+                  Index last) const;
   /// What solving works on, in the precision of its lanes.
   template <class Scalar>
   struct Workspace {

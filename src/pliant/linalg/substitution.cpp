@@ -16,8 +16,8 @@ inline void for_tiles(int n, F f) {
 
 /// sum[r] += sum over k < columns of L[r, k] y[k]; ld between the columns of L.
 template <class Lanes, int N>
-inline void add_rows(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int columns,
-                     const typename Lanes::Scalar* y, Lanes (&sum)[N]) {
+inline void add_rows(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int columns, const typename Lanes::Scalar* y,
+                     Lanes (&sum)[N]) {
   for (int k = 0; k < columns; ++k, l += ld, y += Lanes::stride) {
     const Lanes yk = Lanes::load(y);
     for (int r = 0; r < N; ++r) sum[r].add(l[r], yk);
@@ -26,8 +26,8 @@ inline void add_rows(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int col
 
 /// sum[c] += sum over i < rows of L[i, c] y[i].
 template <class Lanes, int N>
-inline void add_columns(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int rows,
-                        const typename Lanes::Scalar* y, Lanes (&sum)[N]) {
+inline void add_columns(const typename Lanes::Scalar* l, std::ptrdiff_t ld, int rows, const typename Lanes::Scalar* y,
+                        Lanes (&sum)[N]) {
   for (std::ptrdiff_t i = 0; i < rows; ++i, y += Lanes::stride) {
     const Lanes yi = Lanes::load(y);
     for (int c = 0; c < N; ++c) sum[c].add(l[c * ld + i], yi);
@@ -51,8 +51,8 @@ inline void subtract(const Lanes (&sum)[N], typename Lanes::Scalar* from) {
 }  // namespace
 
 template <class Lanes>
-void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
-                   typename Lanes::Scalar* y, typename Lanes::Scalar* below) {
+void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns, typename Lanes::Scalar* y,
+                   typename Lanes::Scalar* below) {
   using Scalar = typename Lanes::Scalar;
   const std::ptrdiff_t ld = rows;
   Scalar solved[kPanelBlock * Lanes::stride];
@@ -81,8 +81,8 @@ void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
 }
 
 template <class Lanes>
-void backward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
-                    typename Lanes::Scalar* y, const typename Lanes::Scalar* below) {
+void backward_panel(const typename Lanes::Scalar* panel, int rows, int columns, typename Lanes::Scalar* y,
+                    const typename Lanes::Scalar* below) {
   using Scalar = typename Lanes::Scalar;
   const std::ptrdiff_t ld = rows;
   Scalar solved[kPanelBlock * Lanes::stride];

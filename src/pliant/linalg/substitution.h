@@ -53,12 +53,12 @@ struct RoughThree {
 
 /// y <- L11^-1 y (columns rows), then below <- L21 y (rows - columns rows).
 template <class Lanes>
-void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
-                   typename Lanes::Scalar* y, typename Lanes::Scalar* below);
+void forward_panel(const typename Lanes::Scalar* panel, int rows, int columns, typename Lanes::Scalar* y,
+                   typename Lanes::Scalar* below);
 
 /// y <- L11^-T (y - L21' below).
 template <class Lanes>
-void backward_panel(const typename Lanes::Scalar* panel, int rows, int columns,
-                    typename Lanes::Scalar* y, const typename Lanes::Scalar* below);
+void backward_panel(const typename Lanes::Scalar* panel, int rows, int columns, typename Lanes::Scalar* y,
+                    const typename Lanes::Scalar* below);
 
 }  // namespace pliant::dense

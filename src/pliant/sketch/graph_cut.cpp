@@ -21,7 +21,7 @@ namespace {
 
 // Whole numbers: with rounding, augmenting paths might never run dry.
 using Flow = std::int64_t;
-constexpr double resolution = 1e9;
+constexpr double kResolution = 1e9;
 
 struct Arc {
   Index from, to;
@@ -33,7 +33,7 @@ struct Arc {
 std::vector<Arc> arcs_of(std::span<const Terminal> nodes, std::span<const CutEdge> edges) {
   double largest = 0.0;
   for (const CutEdge& edge : edges) largest = std::max(largest, edge.capacity);
-  const double scale = largest > 0.0 ? resolution / largest : 0.0;
+  const double scale = largest > 0.0 ? kResolution / largest : 0.0;
 
   std::vector<Arc> arcs;
   Flow sum = 1;
@@ -53,17 +53,15 @@ std::vector<Arc> arcs_of(std::span<const Terminal> nodes, std::span<const CutEdg
     arcs.push_back({from, to, sum, pair});  // more than any cut between the nodes
     arcs.push_back({to, from, 0, pair++});
   }
-  std::stable_sort(arcs.begin(), arcs.end(),
-                   [](const Arc& x, const Arc& y) { return x.from < y.from; });
+  std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& x, const Arc& y) { return x.from < y.from; });
   return arcs;
 }
 
 }  // namespace
 
 std::vector<bool> min_cut(std::span<const Terminal> nodes, std::span<const CutEdge> edges) {
-  using Graph =
-      boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
-                                         boost::no_property, Index, Index>;
+  using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                                   boost::no_property, Index, Index>;
   using Arrow = boost::graph_traits<Graph>::edge_descriptor;
   const std::vector<Arc> arcs = arcs_of(nodes, edges);
   std::vector<std::pair<Index, Index>> ends;
@@ -93,14 +91,13 @@ std::vector<bool> min_cut(std::span<const Terminal> nodes, std::span<const CutEd
   std::vector<Arrow> predecessor(count);
   std::vector<boost::default_color_type> color(count);
   std::vector<Index> distance(count);
-  boost::boykov_kolmogorov_max_flow(
-      graph, boost::make_iterator_property_map(capacity.begin(), of_edge),
-      boost::make_iterator_property_map(residual.begin(), of_edge),
-      boost::make_iterator_property_map(reverse.begin(), of_edge),
-      boost::make_iterator_property_map(predecessor.begin(), of_vertex),
-      boost::make_iterator_property_map(color.begin(), of_vertex),
-      boost::make_iterator_property_map(distance.begin(), of_vertex), of_vertex, count - 2,
-      count - 1);
+  boost::boykov_kolmogorov_max_flow(graph, boost::make_iterator_property_map(capacity.begin(), of_edge),
+                                    boost::make_iterator_property_map(residual.begin(), of_edge),
+                                    boost::make_iterator_property_map(reverse.begin(), of_edge),
+                                    boost::make_iterator_property_map(predecessor.begin(), of_vertex),
+                                    boost::make_iterator_property_map(color.begin(), of_vertex),
+                                    boost::make_iterator_property_map(distance.begin(), of_vertex), of_vertex,
+                                    count - 2, count - 1);
   std::vector<bool> beyond(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) beyond[i] = color[i] != boost::black_color;
   return beyond;

@@ -7,15 +7,12 @@
 namespace pliant {
 namespace {
 
-constexpr double one_depth = 1e-7;
+constexpr double kOneDepth = 1e-7;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Shares of the corners (columns) in p, or none where p is outside or the triangle has no area.
-bool shares_in(const Eigen::Matrix<double, 2, 3>& corners, const Eigen::Vector2d& p,
-               Eigen::Vector3d& shares) {
+bool shares_in(const Eigen::Matrix<double, 2, 3>& corners, const Eigen::Vector2d& p, Eigen::Vector3d& shares) {
   const double area = cross(corners.col(1) - corners.col(0), corners.col(2) - corners.col(0));
   if (area == 0.0) return false;
   for (int c = 0; c < 3; ++c) {
@@ -29,20 +26,18 @@ bool shares_in(const Eigen::Matrix<double, 2, 3>& corners, const Eigen::Vector2d
 
 }  // namespace
 
-std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& view,
-                                           const Triangles& triangles, const Polyline& pixels) {
+std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& view, const Triangles& triangles,
+                                           const Polyline& pixels) {
   Polyline seen(2, view.cols());
   for (Index p = 0; p < view.cols(); ++p) {
-    seen.col(p) = camera.sees(view(2, p)) ? camera.pixel(view.col(p))
-                                          : Eigen::Vector2d::Constant(std::nan(""));
+    seen.col(p) = camera.sees(view(2, p)) ? camera.pixel(view.col(p)) : Eigen::Vector2d::Constant(std::nan(""));
   }
   // Along its longer side the stroke is searched by bisection.
   const Eigen::Vector2d extent = pixels.rowwise().maxCoeff() - pixels.rowwise().minCoeff();
   const int axis = extent.y() > extent.x() ? 1 : 0;
   std::vector<Index> order(pixels.cols());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return pixels(axis, a) < pixels(axis, b); });
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return pixels(axis, a) < pixels(axis, b); });
 
   const bool perspective = camera.pixel_size(2.0) != camera.pixel_size(1.0);
   const Eigen::Vector2d low = pixels.rowwise().minCoeff(), high = pixels.rowwise().maxCoeff();
@@ -59,23 +54,21 @@ std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& v
     Eigen::Matrix<double, 2, 3> corners;
     corners << seen.col(a), seen.col(b), seen.col(c);
     if (corners.hasNaN()) continue;
-    auto place = std::lower_bound(order.begin(), order.end(), x0,
-                                  [&](Index i, double x) { return pixels(axis, i) < x; });
+    auto place =
+        std::lower_bound(order.begin(), order.end(), x0, [&](Index i, double x) { return pixels(axis, i) < x; });
     for (; place != order.end() && pixels(axis, *place) <= x1; ++place) {
       Eigen::Vector3d shares;
       if (!shares_in(corners, pixels.col(*place), shares)) continue;
       const Eigen::Vector3d depths(view(2, a), view(2, b), view(2, c));
       // In perspective the inverse of the depth is linear over the picture.
-      const double depth =
-          perspective ? 1.0 / shares.dot(depths.cwiseInverse()) : shares.dot(depths);
+      const double depth = perspective ? 1.0 / shares.dot(depths.cwiseInverse()) : shares.dot(depths);
       hits[*place].push_back({depth, t});
     }
   }
   for (std::vector<Hit>& along : hits) {
-    std::stable_sort(along.begin(), along.end(),
-                     [](const Hit& x, const Hit& y) { return x.depth < y.depth; });
+    std::stable_sort(along.begin(), along.end(), [](const Hit& x, const Hit& y) { return x.depth < y.depth; });
     const auto same = [](const Hit& x, const Hit& y) {
-      return y.depth - x.depth <= one_depth * std::max(std::abs(x.depth), std::abs(y.depth));
+      return y.depth - x.depth <= kOneDepth * std::max(std::abs(x.depth), std::abs(y.depth));
     };
     along.erase(std::unique(along.begin(), along.end(), same), along.end());
   }

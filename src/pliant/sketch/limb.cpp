@@ -16,8 +16,8 @@ namespace {
 
 // Beside a part it joins the region's s may differ from that part's by this and by this much a
 // length of the curve.
-constexpr double tether_slack = 0.1, tether_rate = 2.0;
-constexpr int joint_passes = 8;  // joints lie on facets: their depths are averaged along the stroke
+constexpr double kTetherSlack = 0.1, tether_rate = 2.0;
+constexpr int kJointPasses = 8;  // joints lie on facets: their depths are averaged along the stroke
 
 Index count_of(const std::vector<Index>& items) { return static_cast<Index>(items.size()); }
 
@@ -27,10 +27,9 @@ std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const 
   std::vector<Index> offsets(count + 1, 0);
   const auto for_each_side = [&](auto&& visit) {
     for (Index t = 0; t < triangles.cols(); ++t) {
-      if (region.of_triangle[t] != region_label) continue;
+      if (region.of_triangle[t] != kRegionLabel) continue;
       for (int c = 0; c < 3; ++c) {
-        const auto [low, high] =
-            std::minmax(local[triangles(c, t)], local[triangles((c + 1) % 3, t)]);
+        const auto [low, high] = std::minmax(local[triangles(c, t)], local[triangles((c + 1) % 3, t)]);
         visit(low, high);
       }
     }
@@ -45,9 +44,7 @@ std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const 
   for (Index low = 0; low < count; ++low) {
     const auto first = others.begin() + offsets[low], last = others.begin() + offsets[low + 1];
     std::sort(first, last);
-    std::for_each(first, std::unique(first, last), [&](Index high) {
-      edges.push_back({low, high});
-    });
+    std::for_each(first, std::unique(first, last), [&](Index high) { edges.push_back({low, high}); });
   }
   return edges;
 }
@@ -75,15 +72,15 @@ void Limb::collect_points() {
   moved_.assign(points_, false);
   for (Index p = 0; p < points_; ++p) {
     const Index label = region_.of_point[p];
-    moved_[p] = label != static_label;
-    if (label == region_label) free_.push_back(p);
-    if (label >= first_rigid_label) parts_[label - first_rigid_label].points.push_back(p);
+    moved_[p] = label != kStaticLabel;
+    if (label == kRegionLabel) free_.push_back(p);
+    if (label >= kFirstRigidLabel) parts_[label - kFirstRigidLabel].points.push_back(p);
   }
   std::vector<bool> seen(points_, false);
   for (Index t = 0; t < seen_.triangles.cols(); ++t) {
-    if (region_.of_triangle[t] != region_label) continue;
+    if (region_.of_triangle[t] != kRegionLabel) continue;
     for (const Index p : seen_.triangles.col(t)) {
-      if (region_.of_point[p] != region_label && !seen[p]) pinned_.push_back(p);
+      if (region_.of_point[p] != kRegionLabel && !seen[p]) pinned_.push_back(p);
       seen[p] = true;
     }
   }
@@ -114,7 +111,7 @@ void Limb::place_virtual_vertices() {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     int count = 0;
     for (const Index p : pinned_) {
-      if (region_.of_point[p] != first_rigid_label + static_cast<Index>(k)) continue;
+      if (region_.of_point[p] != kFirstRigidLabel + static_cast<Index>(k)) continue;
       center += seen_.view.col(p);
       ++count;
     }
@@ -131,8 +128,7 @@ void Limb::prepare_smoother() {
   const auto edges = local_edges(seen_.triangles, region_, local, count_of(point_of_local));
   pins_.resize(pinned_.size());
   for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
-  tether(seen_.view, point_of_local, edges, pins_, tether_slack,
-         tether_rate / stroke_.curve.length(), raw_s_);
+  tether(seen_.view, point_of_local, edges, pins_, kTetherSlack, tether_rate / stroke_.curve.length(), raw_s_);
   smoother_ = ParameterSmoother(seen_.view, point_of_local, count_of(free_), edges);
   raw_.resize(free_.size());
   solved_.resize(free_.size());
@@ -216,13 +212,12 @@ Status Limb::find_joints() {
       std::snprintf(text, sizeof text,
                     "reference meets the shape %s at pixel (%.1f, %.1f); twist and scale need a "
                     "front and a back hit at every pixel of it",
-                    hits.empty() ? "nowhere" : "only once", stroke_.pixels(0, i),
-                    stroke_.pixels(1, i));
+                    hits.empty() ? "nowhere" : "only once", stroke_.pixels(0, i), stroke_.pixels(1, i));
       return {ErrorCode::invalid_option, text};
     }
     depths.push_back(0.5 * (hits[0].depth + hits[1].depth));
   }
-  for (int pass = 0; pass < joint_passes; ++pass) {
+  for (int pass = 0; pass < kJointPasses; ++pass) {
     const std::vector<double> before = depths;
     for (Index i = 1; i + 1 < nodes; ++i) {
       depths[i] = 0.25 * (before[i - 1] + 2.0 * before[i] + before[i + 1]);
@@ -255,8 +250,7 @@ Eigen::Vector3d Limb::twisted(const Eigen::Vector3d& view, const Parameters& at,
   const Eigen::Vector3d joint = (1.0 - (x - i)) * joints_.col(i) + (x - i) * joints_.col(i + 1);
   // Eq. 7. View coordinates are left-handed, those of a reflected camera right-handed but twist
   // the other way: the angle's sign changes in both.
-  return joint + (1.0 + t * (at.scale - 1.0)) *
-                     (Eigen::AngleAxisd(-t * at.twist, tangent(at.s)) * (view - joint));
+  return joint + (1.0 + t * (at.scale - 1.0)) * (Eigen::AngleAxisd(-t * at.twist, tangent(at.s)) * (view - joint));
 }
 
 class Limb::Placer {
@@ -306,9 +300,7 @@ void Limb::show(double t, Points& world) const {
 }
 
 Limb::Parameters Limb::between(Index a, Index b) const {
-  const auto mean = [&](const std::vector<double>& values) {
-    return 0.5 * (values[a] + values[b]);
-  };
+  const auto mean = [&](const std::vector<double>& values) { return 0.5 * (values[a] + values[b]); };
   return {mean(s_), mean(bend_), mean(twist_), mean(scale_)};
 }
 

@@ -7,9 +7,9 @@
 namespace pliant {
 namespace {
 
-constexpr double fidelity_share = 0.05;  // w_c / 2 over the sum of w: sum w = 10 w_c
-constexpr double relaxation = 0.97;      // of what the incomplete factor leaves out
-constexpr int max_passes = 200;
+constexpr double kFidelityShare = 0.05;  // w_c / 2 over the sum of w: sum w = 10 w_c
+constexpr double kRelaxation = 0.97;     // of what the incomplete factor leaves out
+constexpr int kMaxPasses = 200;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -17,8 +17,8 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index> point_of_local,
-                                     Index free, std::span<const std::array<Index, 2>> edges)
+ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index> point_of_local, Index free,
+                                     std::span<const std::array<Index, 2>> edges)
     : offsets_(free + 1, 0), fidelity_(free, 0.0), diagonal_(free, 0.0) {
   std::vector<double> sums(free, 0.0), weights;
   weights.reserve(edges.size());
@@ -45,7 +45,7 @@ ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index
     weights_[next[high]++] = weights[e];
   }
   for (Index i = 0; i < free; ++i) {
-    fidelity_[i] = fidelity_share * sums[i];
+    fidelity_[i] = kFidelityShare * sums[i];
     diagonal_[i] = sums[i] + fidelity_[i];
   }
   factorize();
@@ -65,7 +65,7 @@ void ParameterSmoother::factorize() {
     for (Index k = offsets_[i]; k < offsets_[i + 1]; ++k) {
       const Index j = columns_[k];
       const double w = weights_[k];
-      const double taken = w + relaxation * (above[j] - w);
+      const double taken = w + kRelaxation * (above[j] - w);
       pivot[i] -= w * taken / pivot[j];
     }
   }
@@ -116,8 +116,8 @@ void ParameterSmoother::residual(std::span<const double> raw, std::span<const do
   }
 }
 
-int ParameterSmoother::solve(std::span<const double> raw, std::span<const double> pinned,
-                             std::span<double> u, double tolerance) {
+int ParameterSmoother::solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u,
+                             double tolerance) {
   const Index n = size();
   double largest = 0.0;
   for (const double value : raw) largest = std::max(largest, std::abs(value));
@@ -133,7 +133,7 @@ int ParameterSmoother::solve(std::span<const double> raw, std::span<const double
   p_ = r_;
   double square = dot(r_, r_);
   int passes = 0;
-  for (; square > enough && passes < max_passes; ++passes) {
+  for (; square > enough && passes < kMaxPasses; ++passes) {
     t_ = p_;
     backward(t_.data());
     for (Index i = 0; i < n; ++i) q_[i] = p_[i] + rest_[i] * t_[i];

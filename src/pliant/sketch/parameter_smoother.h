@@ -25,15 +25,13 @@ class ParameterSmoother {
 
   /// raw: of the free points; pinned: of the pinned ones; u: of the free ones, a guess on the way
   /// in. Root mean square error about `tolerance` of the largest value. Returns the passes it took.
-  int solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u,
-            double tolerance = 1e-8);
+  int solve(std::span<const double> raw, std::span<const double> pinned, std::span<double> u, double tolerance = 1e-8);
 
   Index size() const { return static_cast<Index>(diagonal_.size()); }
 
  private:
   void factorize();
-  void residual(std::span<const double> raw, std::span<const double> pinned,
-                std::span<const double> u);
+  void residual(std::span<const double> raw, std::span<const double> pinned, std::span<const double> u);
   void forward(double* v) const;
   void backward(double* v) const;
 

@@ -15,8 +15,8 @@
 namespace pliant {
 namespace {
 
-constexpr double concave = 1.0, convex = 0.2;  // eta
-constexpr double least_cost = 0.01;            // of the length
+constexpr double kConcave = 1.0, convex = 0.2;  // eta
+constexpr double kLeastCost = 0.01;             // of the length
 
 /// An edge of a triangle; equal edges stand together when sorted.
 struct Side {
@@ -58,8 +58,8 @@ double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   const Eigen::Vector3d n = (b - a).cross(c - a);
   const Eigen::Vector3d m = (a - b).cross(d - b);
   const double bend = std::atan2(n.cross(m).norm(), n.dot(m));
-  const double eta = n.dot(d - a) > 0.0 ? concave : convex;
-  return length * std::max(least_cost, 1.0 - eta * bend / std::numbers::pi);
+  const double eta = n.dot(d - a) > 0.0 ? kConcave : convex;
+  return length * std::max(kLeastCost, 1.0 - eta * bend / std::numbers::pi);
 }
 
 std::vector<Index> connected_points(const Triangles& triangles, Index points) {
@@ -145,8 +145,7 @@ void PlaneCut::find_loops() {
       while (is_ahead(c) == is_ahead(c + 1) || is_ahead(c) == is_ahead(c + 2)) ++c;
       const Index tip = triangles_(c, t);
       loops_[l].length +=
-          (crossing(tip, triangles_((c + 1) % 3, t)) - crossing(tip, triangles_((c + 2) % 3, t)))
-              .norm();
+          (crossing(tip, triangles_((c + 1) % 3, t)) - crossing(tip, triangles_((c + 2) % 3, t))).norm();
     }
   }
 }
@@ -185,8 +184,7 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
   result.reserve(part_.size());
   std::vector<Index> near, place_in_part;
   for (const Index t : part_) {
-    const CutSide a = side_of(triangles_(0, t)), b = side_of(triangles_(1, t)),
-                  c = side_of(triangles_(2, t));
+    const CutSide a = side_of(triangles_(0, t)), b = side_of(triangles_(1, t)), c = side_of(triangles_(2, t));
     result.push_back(a == b || a == c ? a : b);
     double low = distance_[triangles_(0, t)], high = low;
     for (const Index corner : triangles_.col(t)) {
@@ -232,9 +230,8 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
     const auto& corners = triangles_.col(first->triangle);
     const int at = corner_across(triangles_, first->triangle, a, b);
     for (auto next = first + 1; next != last; ++next) {
-      const double cost =
-          cut_cost(points_.col(corners[(at + 1) % 3]), points_.col(corners[(at + 2) % 3]),
-                   points_.col(corners[at]), points_.col(next->opposite));
+      const double cost = cut_cost(points_.col(corners[(at + 1) % 3]), points_.col(corners[(at + 2) % 3]),
+                                   points_.col(corners[at]), points_.col(next->opposite));
       graph.push_back({place(first->triangle), place(next->triangle), cost});
     }
   });

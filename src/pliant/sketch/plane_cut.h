@@ -67,7 +67,6 @@ class PlaneCut {
 /// What it costs to cut along an edge between the triangles with corners (a, b, c) and (b, a, d):
 /// length (1 - eta bend / pi), with bend the angle between their normals, eta 1 where the surface
 /// is creased inwards and 0.2 where outwards; never below 1 % of the length.
-double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                const Eigen::Vector3d& d);
+double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
 }  // namespace pliant

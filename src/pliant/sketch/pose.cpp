@@ -33,8 +33,8 @@ PlaneCurve bent(const PlaneCurve& reference, const SketchPose& pose, double t) {
   std::vector<double> turns = reference.turns();
   assert(turns.size() == pose.turns.size());
   for (std::size_t i = 0; i < turns.size(); ++i) turns[i] += t * pose.turns[i];
-  return PlaneCurve(reference.nodes().col(0), reference.heading() + t * pose.heading,
-                    std::move(turns), reference.step() * (1.0 + t * (pose.length - 1.0)));
+  return PlaneCurve(reference.nodes().col(0), reference.heading() + t * pose.heading, std::move(turns),
+                    reference.step() * (1.0 + t * (pose.length - 1.0)));
 }
 
 }  // namespace pliant

@@ -13,12 +13,11 @@
 namespace pliant {
 namespace {
 
-constexpr double max_stretch = 1.5;  // deformed over original: the paper prints its inverse
-constexpr double max_angle = std::numbers::pi - std::numbers::pi / 24;
+constexpr double kMaxStretch = 1.5;  // deformed over original: the paper prints its inverse
+constexpr double kMaxAngle = std::numbers::pi - std::numbers::pi / 24;
 
 std::uint64_t key(Index a, Index b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 |
-         static_cast<std::uint32_t>(std::max(a, b));
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
 class Refiner {
@@ -45,8 +44,7 @@ class Refiner {
 
  private:
   bool moves(Index p) const {
-    return std::any_of(impl_.limbs.begin(), impl_.limbs.end(),
-                       [&](const Limb& limb) { return limb.moves(p); });
+    return std::any_of(impl_.limbs.begin(), impl_.limbs.end(), [&](const Limb& limb) { return limb.moves(p); });
   }
 
   /// Both criteria.
@@ -54,11 +52,11 @@ class Refiner {
     if (!moves(a) && !moves(b)) return false;
     const double before = (rest_.col(a) - rest_.col(b)).norm();
     const Eigen::Vector3d p = impl_.world.col(a), q = impl_.world.col(b);
-    if (!((p - q).norm() > max_stretch * before)) return false;
+    if (!((p - q).norm() > kMaxStretch * before)) return false;
     const Limb& limb = impl_.limb_of(moves(a) ? a : b);
     const Eigen::Vector3d middle = limb.middle(a, b, impl_.morph);
     const Eigen::Vector3d u = p - middle, v = q - middle;
-    return std::atan2(u.cross(v).norm(), u.dot(v)) < max_angle;
+    return std::atan2(u.cross(v).norm(), u.dot(v)) < kMaxAngle;
   }
 
   /// The edges to split in this round: point_of_edge_ gets their new points' ids.
@@ -103,8 +101,7 @@ class Refiner {
     if (split == point_of_edge_.end()) return -1;
     Refinement& refinement = *impl_.refinement;
     const Index fresh = impl_.shape->input_size() + static_cast<Index>(refinement.parents.size());
-    const auto [found, is_new] =
-        vertex_of_edge_.try_emplace(key(static_cast<Index>(a), static_cast<Index>(b)), fresh);
+    const auto [found, is_new] = vertex_of_edge_.try_emplace(key(static_cast<Index>(a), static_cast<Index>(b)), fresh);
     if (is_new) {
       const Index first = static_cast<Index>(p < q ? a : b);
       refinement.parents.push_back({first, static_cast<Index>(p < q ? b : a)});
@@ -183,15 +180,14 @@ class Refiner {
 
 Status Sketch::refine(std::span<const std::uint32_t> triangles, Index max_added) {
   if (triangles.size() % 3 != 0) {
-    return {ErrorCode::invalid_shape, "triangles has length " + std::to_string(triangles.size()) +
-                                          "; expected a multiple of 3"};
+    return {ErrorCode::invalid_shape,
+            "triangles has length " + std::to_string(triangles.size()) + "; expected a multiple of 3"};
   }
   const Index vertices = impl_->shape->input_size();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i] >= static_cast<std::uint32_t>(vertices)) {
-      return {ErrorCode::invalid_shape,
-              "triangles[" + std::to_string(i) + "] is " + std::to_string(triangles[i]) +
-                  "; expected a vertex id below " + std::to_string(vertices)};
+      return {ErrorCode::invalid_shape, "triangles[" + std::to_string(i) + "] is " + std::to_string(triangles[i]) +
+                                            "; expected a vertex id below " + std::to_string(vertices)};
     }
   }
   unrefine();

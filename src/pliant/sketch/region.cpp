@@ -12,14 +12,14 @@
 namespace pliant {
 namespace {
 
-constexpr double band_pixels = 5.0;  // section 4.2.1
-constexpr double near_share = 0.1;   // of the stroke: how far from its place a section may be,
-constexpr double wide_share = 0.35;  // and how far it may reach along the stroke
-constexpr double slide_step = 0.05;
-constexpr int slides = 8;
-constexpr double shrink = 1.4;  // of a section's length from one step to the next
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Index untouched = -1;
+constexpr double kBandPixels = 5.0;  // section 4.2.1
+constexpr double kNearShare = 0.1;   // of the stroke: how far from its place a section may be,
+constexpr double kWideShare = 0.35;  // and how far it may reach along the stroke
+constexpr double kSlideStep = 0.05;
+constexpr int kSlides = 8;
+constexpr double kShrink = 1.4;  // of a section's length from one step to the next
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Index kUntouched = -1;
 
 /// A plane that contains the view's direction.
 struct ScreenLine {
@@ -47,46 +47,43 @@ std::vector<Index> with_label(const std::vector<Index>& labels, Index label) {
 void label_points(const Triangles& triangles, Index points, Region& region) {
   std::vector<Index> number;  // by label
   for (Index& label : region.of_triangle) {
-    if (label < first_rigid_label) continue;
-    if (label >= static_cast<Index>(number.size())) number.resize(label + 1, untouched);
-    if (number[label] == untouched) number[label] = first_rigid_label + region.rigid_parts++;
+    if (label < kFirstRigidLabel) continue;
+    if (label >= static_cast<Index>(number.size())) number.resize(label + 1, kUntouched);
+    if (number[label] == kUntouched) number[label] = kFirstRigidLabel + region.rigid_parts++;
     label = number[label];
   }
-  region.of_point.assign(points, untouched);
+  region.of_point.assign(points, kUntouched);
   for (Index t = 0; t < triangles.cols(); ++t) {
     const Index label = region.of_triangle[t];
     for (const Index p : triangles.col(t)) {
       Index& known = region.of_point[p];
-      const bool wins = known == untouched || label == static_label ||
-                        (known == region_label && label > region_label);
-      if (wins && known != static_label) known = label;
+      const bool wins = known == kUntouched || label == kStaticLabel || (known == kRegionLabel && label > kRegionLabel);
+      if (wins && known != kStaticLabel) known = label;
     }
   }
-  for (Index& label : region.of_point) label = std::max(label, static_label);
+  for (Index& label : region.of_point) label = std::max(label, kStaticLabel);
 }
 
 class RegionFinder {
  public:
   RegionFinder(const SeenShape& shape, const LaidStroke& stroke)
-      : shape_(shape), stroke_(stroke), labels_(shape.triangles.cols(), static_label) {}
+      : shape_(shape), stroke_(stroke), labels_(shape.triangles.cols(), kStaticLabel) {}
 
   Result<Region> find(std::span<const Polyline> partitions) {
     label_component();
-    start_ = cut_limb(with_label(labels_, region_label), false, static_label);
-    cut_limb(with_label(labels_, region_label), true, first_rigid_label);
+    start_ = cut_limb(with_label(labels_, kRegionLabel), false, kStaticLabel);
+    cut_limb(with_label(labels_, kRegionLabel), true, kFirstRigidLabel);
     for (std::size_t i = 0; i < partitions.size(); ++i) {
       if (!cut_partition(partitions[i])) {
         return Status(ErrorCode::invalid_option,
-                      "partitions[" + std::to_string(i) +
-                          "] cuts nothing off the region; expected a line across it");
+                      "partitions[" + std::to_string(i) + "] cuts nothing off the region; expected a line across it");
       }
     }
     Region region;
     region.start = start_;
     region.of_triangle = std::move(labels_);
     label_points(shape_.triangles, static_cast<Index>(shape_.view.cols()), region);
-    if (std::find(region.of_point.begin(), region.of_point.end(), region_label) ==
-        region.of_point.end()) {
+    if (std::find(region.of_point.begin(), region.of_point.end(), kRegionLabel) == region.of_point.end()) {
       return Status(ErrorCode::invalid_option,
                     "reference covers no vertex of the shape; expected a stroke over or along it");
     }
@@ -94,14 +91,13 @@ class RegionFinder {
   }
 
  private:
-  double band() const { return band_pixels * shape_.camera.pixel_size(stroke_.depth); }
+  double band() const { return kBandPixels * shape_.camera.pixel_size(stroke_.depth); }
 
   void label_component() {
-    const std::vector<Index> component =
-        connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
+    const std::vector<Index> component = connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
     const Index mine = component_of_stroke(component);
     for (Index t = 0; t < shape_.triangles.cols(); ++t) {
-      if (component[shape_.triangles(0, t)] == mine) labels_[t] = region_label;
+      if (component[shape_.triangles(0, t)] == mine) labels_[t] = kRegionLabel;
     }
   }
 
@@ -123,7 +119,7 @@ class RegionFinder {
       }
       return best;
     }
-    double nearest = infinity;
+    double nearest = kInfinity;
     Index best = 0;
     for (const Index p : shape_.triangles.reshaped()) {
       const Eigen::Vector2d xy = shape_.view.col(p).head<2>();
@@ -145,14 +141,13 @@ class RegionFinder {
   /// The loop nearest to the anchor, unless it belongs to another place along the stroke. -1: none.
   Index loop_at(const std::vector<CutLoop>& loops, double s) const {
     const Eigen::Vector3d from = anchor(s);
-    double nearest = infinity;
+    double nearest = kInfinity;
     Index best = -1;
     for (std::size_t l = 0; l < loops.size(); ++l) {
       Index at = 0;
-      const double distance =
-          (loops[l].crossings.colwise() - from).colwise().squaredNorm().minCoeff(&at);
+      const double distance = (loops[l].crossings.colwise() - from).colwise().squaredNorm().minCoeff(&at);
       const double place = stroke_.curve.nearest(loops[l].crossings.col(at).head<2>());
-      if (std::abs(place - s) <= near_share && distance < nearest) {
+      if (std::abs(place - s) <= kNearShare && distance < nearest) {
         nearest = distance;
         best = static_cast<Index>(l);
       }
@@ -163,7 +158,7 @@ class RegionFinder {
   /// Whether all of a loop lies near the place of the stroke where the plane is.
   bool is_section(const CutLoop& loop, double s) const {
     for (const auto& crossing : loop.crossings.colwise()) {
-      if (std::abs(stroke_.curve.nearest(crossing.head<2>()) - s) > wide_share) return false;
+      if (std::abs(stroke_.curve.nearest(crossing.head<2>()) - s) > kWideShare) return false;
     }
     return true;
   }
@@ -200,10 +195,10 @@ class RegionFinder {
     Section before = section_at(part, 0.0);
     if (!before.there) return 0;
     bool narrow = before.narrow;
-    for (int k = 1; k <= slides; ++k) {
-      const Section section = section_at(part, k * slide_step);
+    for (int k = 1; k <= kSlides; ++k) {
+      const Section section = section_at(part, k * kSlideStep);
       if (!section.there) continue;
-      const bool leaves = before.length > shrink * section.length;
+      const bool leaves = before.length > kShrink * section.length;
       if (leaves || (section.narrow && !narrow)) {
         first = k;
         narrow = true;
@@ -215,8 +210,8 @@ class RegionFinder {
 
   /// The end moves back only as long as its section is none.
   int slide_end(const std::vector<Index>& part) const {
-    for (int k = 0; k <= slides; ++k) {
-      const Section section = section_at(part, 1.0 - k * slide_step);
+    for (int k = 0; k <= kSlides; ++k) {
+      const Section section = section_at(part, 1.0 - k * kSlideStep);
       if (section.narrow || (k == 0 && !section.there)) return k;
     }
     return 0;
@@ -225,7 +220,7 @@ class RegionFinder {
   /// Cuts `part` across the stroke near one of its ends and labels what lies beyond. Returns
   /// the place of the cut, or that of the end where no loop is there.
   double cut_limb(const std::vector<Index>& part, bool at_end, Index label) {
-    const auto place = [&](int k) { return at_end ? 1.0 - k * slide_step : k * slide_step; };
+    const auto place = [&](int k) { return at_end ? 1.0 - k * kSlideStep : k * kSlideStep; };
     const double s = place(at_end ? slide_end(part) : slide_start(part));
     const std::vector<double> distance = distances(shape_, across(s));
     PlaneCut cut(shape_.view, shape_.triangles, part, distance);
@@ -244,7 +239,7 @@ class RegionFinder {
   Index loop_under(const std::vector<CutLoop>& loops, const Polyline& ends) const {
     const Eigen::Vector2d a = ends.col(0);
     const Eigen::Vector2d along = ends.col(1) - a;
-    double nearest = infinity;
+    double nearest = kInfinity;
     Index best = -1;
     for (std::size_t l = 0; l < loops.size(); ++l) {
       for (const auto& crossing : loops[l].crossings.colwise()) {
@@ -265,7 +260,7 @@ class RegionFinder {
     const Eigen::Vector2d along = shape_.camera.at_depth(ends.col(1), stroke_.depth) - a;
     const ScreenLine plane{a, Eigen::Vector2d(-along.y(), along.x()).normalized()};
     const std::vector<double> distance = distances(shape_, plane);
-    const std::vector<Index> part = with_label(labels_, region_label);
+    const std::vector<Index> part = with_label(labels_, kRegionLabel);
     PlaneCut cut(shape_.view, shape_.triangles, part, distance);
     const Index first = loop_under(cut.loops(), ends);
     if (first < 0) return false;
@@ -281,7 +276,7 @@ class RegionFinder {
     int votes = 0;
     for (const auto& node : stroke_.curve.nodes().colwise()) {
       const Eigen::Vector3d at(node.x(), node.y(), stroke_.depth);
-      double nearest = infinity;
+      double nearest = kInfinity;
       CutSide side = CutSide::outside;
       for (std::size_t i = 0; i < part.size(); ++i) {
         const double distance = (shape_.view.col(shape_.triangles(0, part[i])) - at).squaredNorm();
@@ -295,7 +290,7 @@ class RegionFinder {
   /// What is cut off hangs on the static part and joins it, or becomes a rigid part together with
   /// those that hang on it.
   void cut_off(const std::vector<Index>& part, const std::vector<CutSide>& sides, CutSide off) {
-    Index largest = region_label;
+    Index largest = kRegionLabel;
     for (const Index label : labels_) largest = std::max(largest, label);
     std::vector<bool> touched(shape_.view.cols(), false);
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -308,12 +303,12 @@ class RegionFinder {
         if (touched[p]) hangs_on[labels_[t]] = true;
       }
     }
-    const Index label = hangs_on[static_label] ? static_label : largest + 1;
+    const Index label = hangs_on[kStaticLabel] ? kStaticLabel : largest + 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
       if (sides[i] == off) labels_[part[i]] = label;
     }
     for (Index& other : labels_) {
-      if (other > region_label && other <= largest && hangs_on[other]) other = label;
+      if (other > kRegionLabel && other <= largest && hangs_on[other]) other = label;
     }
   }
 
@@ -329,12 +324,11 @@ Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels) {
   LaidStroke laid;
   laid.pixels = pixels;
   laid.hits = hits_through(shape.camera, shape.view, shape.triangles, pixels);
-  const auto met = std::find_if(laid.hits.begin(), laid.hits.end(),
-                                [](const std::vector<Hit>& hits) { return !hits.empty(); });
+  const auto met =
+      std::find_if(laid.hits.begin(), laid.hits.end(), [](const std::vector<Hit>& hits) { return !hits.empty(); });
   laid.depth = met != laid.hits.end() ? met->front().depth : shape.view.row(2).mean();
   if (!shape.camera.sees(laid.depth)) {
-    return Status(ErrorCode::invalid_option,
-                  "camera.eye has the shape behind it; expected the shape in view");
+    return Status(ErrorCode::invalid_option, "camera.eye has the shape behind it; expected the shape in view");
   }
   Polyline nodes(2, pixels.cols());
   for (Index i = 0; i < pixels.cols(); ++i) {
@@ -344,8 +338,7 @@ Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels) {
   return laid;
 }
 
-Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke,
-                             std::span<const Polyline> partitions) {
+Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions) {
   return RegionFinder(shape, stroke).find(partitions);
 }
 
@@ -357,10 +350,10 @@ Region region_from_labels(const Triangles& triangles, std::span<const Index> of_
     // A triangle with corners of two kinds lies in the region: that is where it deforms.
     const Index a = of_point[triangles(0, t)];
     const bool all_same = a == of_point[triangles(1, t)] && a == of_point[triangles(2, t)];
-    region.of_triangle[t] = all_same ? a : region_label;
+    region.of_triangle[t] = all_same ? a : kRegionLabel;
   }
   for (const Index label : of_point) {
-    region.rigid_parts = std::max(region.rigid_parts, label - region_label);
+    region.rigid_parts = std::max(region.rigid_parts, label - kRegionLabel);
   }
   return region;
 }

@@ -12,9 +12,9 @@
 
 namespace pliant {
 
-inline constexpr Index static_label = 0;
-inline constexpr Index region_label = 1;
-inline constexpr Index first_rigid_label = 2;
+inline constexpr Index kStaticLabel = 0;
+inline constexpr Index kRegionLabel = 1;
+inline constexpr Index kFirstRigidLabel = 2;
 
 /// A shape seen through a camera.
 struct SeenShape {
@@ -50,8 +50,7 @@ struct Region {
 /// through more than the limb (its loop comes near to quite other places of the stroke) moves along
 /// the stroke, at most over 40 % of it, until it crosses the limb alone.
 /// Errors: invalid_option (nothing is covered, a partition that cuts nothing off).
-Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke,
-                             std::span<const Polyline> partitions);
+Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions);
 
 /// A region from given labels of the points, rigid parts numbered without gaps.
 Region region_from_labels(const Triangles& triangles, std::span<const Index> of_point);

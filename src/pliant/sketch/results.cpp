@@ -11,8 +11,7 @@
 namespace pliant {
 
 Index SketchImpl::point_of(Index vertex) const {
-  return vertex < shape->input_size() ? shape->point_of_vertex()[vertex]
-                                      : point_of_added[vertex - shape->input_size()];
+  return vertex < shape->input_size() ? shape->point_of_vertex()[vertex] : point_of_added[vertex - shape->input_size()];
 }
 
 Points SketchImpl::of_vertices(const Points& of_points) const {
@@ -57,18 +56,16 @@ void append(StateTable& table, const Points& points) {
 }  // namespace
 
 const Shape& Sketch::shape() const { return *impl_->shape; }
-const Refinement* Sketch::refinement() const {
-  return impl_->refinement ? &*impl_->refinement : nullptr;
-}
+const Refinement* Sketch::refinement() const { return impl_->refinement ? &*impl_->refinement : nullptr; }
 
 std::vector<Index> Sketch::labels() const {
-  std::vector<Index> labels(impl_->shape->input_size(), static_label);
+  std::vector<Index> labels(impl_->shape->input_size(), kStaticLabel);
   Index rigid_before = 0;
   for (const Limb& limb : impl_->limbs) {
     for (Index v = 0; v < static_cast<Index>(labels.size()); ++v) {
       const Index label = limb.region().of_point[impl_->point_of(v)];
-      if (label == static_label) continue;
-      labels[v] = label + (label >= first_rigid_label ? rigid_before : 0);
+      if (label == kStaticLabel) continue;
+      labels[v] = label + (label >= kFirstRigidLabel ? rigid_before : 0);
     }
     rigid_before += limb.region().rigid_parts;
   }
@@ -99,16 +96,13 @@ Points Sketch::rest() const {
   if (impl_->refinement) {
     for (std::size_t i = 0; i < impl_->point_of_added.size(); ++i) {
       const auto [a, b] = impl_->refinement->parents[i];
-      points.col(impl_->point_of_added[i]) =
-          0.5 * (points.col(impl_->point_of(a)) + points.col(impl_->point_of(b)));
+      points.col(impl_->point_of_added[i]) = 0.5 * (points.col(impl_->point_of(a)) + points.col(impl_->point_of(b)));
     }
   }
   return impl_->of_vertices(points);
 }
 
-Points Sketch::normals() const {
-  return impl_->of_vertices(point_normals(impl_->world, impl_->triangles()));
-}
+Points Sketch::normals() const { return impl_->of_vertices(point_normals(impl_->world, impl_->triangles())); }
 
 SketchSeed Sketch::seed(double spacing) const {
   const Shape& shape = *impl_->shape;
@@ -119,18 +113,18 @@ SketchSeed Sketch::seed(double spacing) const {
   SketchSeed seed;
   for (Index v = 0; v < shape.input_size(); ++v) {
     const Index p = impl_->point_of(v);
-    if (labels[v] == static_label) {
+    if (labels[v] == kStaticLabel) {
       seed.fixed.push_back(v);
       continue;
     }
     bool wanted = true;
-    if (labels[v] == region_label) {
+    if (labels[v] == kRegionLabel) {
       grid.for_each_near(shape.points().col(p), [&](Index other, double) {
         if (other != p && taken[other]) wanted = false;
       });
     }
     if (!wanted) continue;
-    taken[p] = labels[v] == region_label;
+    taken[p] = labels[v] == kRegionLabel;
     seed.vertices.push_back(v);
   }
   seed.targets.resize(3, static_cast<Index>(seed.vertices.size()));
@@ -149,9 +143,9 @@ State Sketch::save() const {
   const SketchPose pose = impl.whole_pose();
   const bool with_joints = pose.twists() || pose.scales();
   StateTable labels{"labels", 1, true, {}}, s{"s", 1, false, {}}, angles{"angles", 1, false, {}},
-      reference{"reference", 3, false, {}}, target{"target", 3, false, {}},
-      normals{"normals", 3, false, {}}, sides{"sides", 1, true, {}}, joints{"joints", 3, false, {}},
-      twists{"twists", 1, false, {}}, scales{"scales", 1, false, {}};
+      reference{"reference", 3, false, {}}, target{"target", 3, false, {}}, normals{"normals", 3, false, {}},
+      sides{"sides", 1, true, {}}, joints{"joints", 3, false, {}}, twists{"twists", 1, false, {}},
+      scales{"scales", 1, false, {}};
   for (const Index label : this->labels()) labels.data.push_back(label);
   s.data = parameters();
   for (Index v = 0; v < static_cast<Index>(s.data.size()); ++v) {

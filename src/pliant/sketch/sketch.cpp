@@ -32,8 +32,7 @@ Status check_options(const Shape& shape, const SketchOptions& options) {
   }
   if (options.mirror) {
     const Plane& plane = *options.mirror;
-    if (!plane.point.allFinite() || !plane.normal.allFinite() ||
-        !(plane.normal.stableNorm() > 0.0)) {
+    if (!plane.point.allFinite() || !plane.normal.allFinite() || !(plane.normal.stableNorm() > 0.0)) {
       return invalid("mirror is not a plane; expected a finite point and a finite normal not zero");
     }
   }
@@ -60,16 +59,15 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
       return invalid(name + "; expected 0, 1 or a rigid part from 2 on");
     }
     if (labels[v] != first) {
-      return invalid(name + "; expected " + std::to_string(first) +
-                     " as that of the vertex at the same position");
+      return invalid(name + "; expected " + std::to_string(first) + " as that of the vertex at the same position");
     }
     of_point[point] = labels[v];
     used[labels[v]] = true;
   }
   const auto last = std::find(used.rbegin(), used.rend(), true).base();
   const auto gap = std::find(used.begin() + 1, last, false);
-  if (!used[region_label] || gap != last) {
-    const auto missing = used[region_label] ? gap - used.begin() : region_label;
+  if (!used[kRegionLabel] || gap != last) {
+    const auto missing = used[kRegionLabel] ? gap - used.begin() : kRegionLabel;
     return invalid("labels has no vertex with label " + std::to_string(missing) +
                    "; expected a region (1) and rigid parts numbered without gaps");
   }
@@ -85,8 +83,8 @@ Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region) {
 
 /// The same with a region chosen. What of the stroke lies before the region is dropped, and
 /// `start` says how much; a start already found is kept.
-Result<Limb> limb_under(SeenShape seen, const Polyline& pixels,
-                        std::span<const Polyline> partitions, bool mirrored, double& start) {
+Result<Limb> limb_under(SeenShape seen, const Polyline& pixels, std::span<const Polyline> partitions, bool mirrored,
+                        double& start) {
   Result<LaidStroke> laid = lay_stroke(seen, without_start(pixels, start));
   if (!laid.ok()) return laid.status();
   Result<Region> region = choose_region(seen, *laid, partitions);
@@ -100,7 +98,7 @@ Result<Limb> limb_under(SeenShape seen, const Polyline& pixels,
 
 Status check_apart(const Region& a, const Region& b) {
   for (std::size_t p = 0; p < a.of_point.size(); ++p) {
-    if (a.of_point[p] != static_label && b.of_point[p] != static_label) {
+    if (a.of_point[p] != kStaticLabel && b.of_point[p] != kStaticLabel) {
       return invalid("mirror reflects the region onto itself; expected a limb on one side of it");
     }
   }
@@ -116,7 +114,7 @@ Stroke continued(const Stroke& target, const Polyline& reference) {
   // The direction of the last few pixels: single samples are too noisy.
   Index before = static_cast<Index>(target.cols()) - 1;
   const Eigen::Vector2d end = target.col(before);
-  while (before > 0 && (end - target.col(before)).norm() < 2 * min_stroke_segment) --before;
+  while (before > 0 && (end - target.col(before)).norm() < 2 * kMinStrokeSegment) --before;
   const Eigen::Vector2d u = reference.col(from + 1) - reference.col(from);
   const Eigen::Vector2d v = end - target.col(before);
   const double angle = std::atan2(v.y(), v.x()) - std::atan2(u.y(), u.x());
@@ -176,12 +174,10 @@ Status SketchImpl::find_joints() {
 Sketch::Sketch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Sketch::~Sketch() = default;
 
-Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shape,
-                                               const Camera& camera, const Stroke& reference,
-                                               const SketchOptions& options) {
+Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shape, const Camera& camera,
+                                               const Stroke& reference, const SketchOptions& options) {
   if (shape->triangles().cols() == 0) {
-    return Status(ErrorCode::invalid_shape,
-                  "the shape has no triangles; expected a mesh to sketch on");
+    return Status(ErrorCode::invalid_shape, "the shape has no triangles; expected a mesh to sketch on");
   }
   if (Status status = check_stroke(reference, "reference"); !status.ok()) return status;
   if (Status status = check_options(*shape, options); !status.ok()) return status;
@@ -201,16 +197,14 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
     if (mirrored && !options.mirror) break;
     const Polyline& pixels = impl->reference_pixels;
     SeenShape seen = seen_through(mirrored ? camera.mirrored(*options.mirror) : camera, *shape);
-    Result<Limb> limb =
-        options.labels.empty()
-            ? limb_under(std::move(seen), pixels, options.partitions, mirrored, impl->start)
-            : limb_over(std::move(seen), pixels, given);
+    Result<Limb> limb = options.labels.empty()
+                            ? limb_under(std::move(seen), pixels, options.partitions, mirrored, impl->start)
+                            : limb_over(std::move(seen), pixels, given);
     if (!limb.ok()) return limb.status();
     impl->limbs.push_back(std::move(*limb));
   }
   if (options.mirror) {
-    if (Status status = check_apart(impl->limbs[0].region(), impl->limbs[1].region());
-        !status.ok()) {
+    if (Status status = check_apart(impl->limbs[0].region(), impl->limbs[1].region()); !status.ok()) {
       return status;
     }
   }
@@ -225,9 +219,8 @@ Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
   const Polyline pixels = filtered(reference, nodes_for(reference));
   std::vector<Limb> limbs;
   for (std::size_t k = 0; k < impl_->limbs.size(); ++k) {
-    Result<Limb> limb =
-        limb_over(seen_through(k == 0 ? camera : camera.mirrored(*impl_->mirror), *impl_->shape),
-                  pixels, impl_->limbs[k].region());
+    Result<Limb> limb = limb_over(seen_through(k == 0 ? camera : camera.mirrored(*impl_->mirror), *impl_->shape),
+                                  pixels, impl_->limbs[k].region());
     if (!limb.ok()) return limb.status();
     limbs.push_back(std::move(*limb));
   }
@@ -346,9 +339,9 @@ Status Sketch::set_pose(const SketchPose& pose) {
     return invalid("pose.turns has length " + std::to_string(pose.turns.size()) + "; expected " +
                    std::to_string(impl_->base.turns.size()) + ", those of this reference");
   }
-  const bool finite = std::isfinite(pose.heading) && std::isfinite(pose.length) &&
-                      std::all_of(pose.turns.begin(), pose.turns.end(),
-                                  [](double turn) { return std::isfinite(turn); });
+  const bool finite =
+      std::isfinite(pose.heading) && std::isfinite(pose.length) &&
+      std::all_of(pose.turns.begin(), pose.turns.end(), [](double turn) { return std::isfinite(turn); });
   if (!finite || !(pose.length > 0.0)) {
     return invalid("pose has a number that is not finite or no length; expected those of pose()");
   }

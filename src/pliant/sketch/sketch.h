@@ -47,9 +47,8 @@ class Sketch {
   /// Errors: invalid_shape (no triangles); invalid_option (a stroke that is too short or not
   /// finite, shape behind the camera, a stroke that covers nothing, a partition that cuts nothing
   /// off, mirrored regions that overlap, labels that do not fit).
-  static Result<std::unique_ptr<Sketch>> create(std::shared_ptr<const Shape> shape,
-                                                const Camera& camera, const Stroke& reference,
-                                                const SketchOptions& options = {});
+  static Result<std::unique_ptr<Sketch>> create(std::shared_ptr<const Shape> shape, const Camera& camera,
+                                                const Stroke& reference, const SketchOptions& options = {});
   ~Sketch();
   Sketch(const Sketch&) = delete;
   Sketch& operator=(const Sketch&) = delete;

@@ -10,15 +10,14 @@
 namespace pliant {
 namespace {
 
-constexpr double reach = 8.0;          // pixels to each side that the average takes in
-constexpr double reach_share = 0.125;  // of a short stroke's length
-constexpr double max_pixel = 1e6;
-constexpr Index max_samples = 8000;
+constexpr double kReach = 8.0;         // pixels to each side that the average takes in
+constexpr double kReachShare = 0.125;  // of a short stroke's length
+constexpr double kMaxPixel = 1e6;
+constexpr Index kMaxSamples = 8000;
 
 /// The value at `center` of the parabola fitted to the samples from `first` to `last`, near ones
 /// counting more.
-Eigen::Vector2d smoothed_sample(const Polyline& line, Index first, Index last, Index center,
-                                double half_width) {
+Eigen::Vector2d smoothed_sample(const Polyline& line, Index first, Index last, Index center, double half_width) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
   for (Index i = first; i <= last; ++i) {
@@ -35,12 +34,10 @@ Eigen::Vector2d smoothed_sample(const Polyline& line, Index first, Index last, I
 Polyline averaged(const Polyline& line, double spacing) {
   const Index n = static_cast<Index>(line.cols());
   const double length = spacing * (n - 1);
-  const Index k = std::max<Index>(
-      2, static_cast<Index>(std::lround(std::min(reach, reach_share * length) / spacing)));
+  const Index k = std::max<Index>(2, static_cast<Index>(std::lround(std::min(kReach, kReachShare * length) / spacing)));
   Polyline result(2, n);
   for (Index i = 0; i < n; ++i) {
-    result.col(i) =
-        smoothed_sample(line, std::max<Index>(0, i - k), std::min(n - 1, i + k), i, k + 1.0);
+    result.col(i) = smoothed_sample(line, std::max<Index>(0, i - k), std::min(n - 1, i + k), i, k + 1.0);
   }
   return result;
 }
@@ -55,32 +52,31 @@ Status check_stroke(const Stroke& stroke, const char* argument) {
   }
   for (Index i = 0; i < stroke.cols(); ++i) {
     // Written so that NaN fails too.
-    if (!(stroke.col(i).cwiseAbs().maxCoeff() <= max_pixel) || stroke.col(i).hasNaN()) {
+    if (!(stroke.col(i).cwiseAbs().maxCoeff() <= kMaxPixel) || stroke.col(i).hasNaN()) {
       return {ErrorCode::invalid_option,
               name + "[" + std::to_string(i) + "] is not a pixel; expected two numbers up to 1e6"};
     }
   }
   const double extent = (stroke.rowwise().maxCoeff() - stroke.rowwise().minCoeff()).eval().norm();
-  if (extent < min_stroke_segment) {
+  if (extent < kMinStrokeSegment) {
     char text[120];
-    std::snprintf(text, sizeof text, " spans %.3g pixels; expected at least %g", extent,
-                  min_stroke_segment);
+    std::snprintf(text, sizeof text, " spans %.3g pixels; expected at least %g", extent, kMinStrokeSegment);
     return {ErrorCode::invalid_option, name + text};
   }
   return {};
 }
 
 Index nodes_for(const Stroke& stroke) {
-  const double segments = length_of(stroke) / min_stroke_segment;
-  return static_cast<Index>(std::clamp(segments + 1.0, static_cast<double>(min_stroke_nodes),
-                                       static_cast<double>(max_stroke_nodes)));
+  const double segments = length_of(stroke) / kMinStrokeSegment;
+  return static_cast<Index>(
+      std::clamp(segments + 1.0, static_cast<double>(kMinStrokeNodes), static_cast<double>(kMaxStrokeNodes)));
 }
 
 Stroke filtered(const Stroke& stroke, Index nodes) {
   const double length = length_of(stroke);
   // About one sample a pixel, so that the average weighs the stroke, not the pen's speed.
-  const Index samples = static_cast<Index>(
-      std::clamp(std::ceil(length), 4.0 * nodes, static_cast<double>(max_samples)));
+  const Index samples =
+      static_cast<Index>(std::clamp(std::ceil(length), 4.0 * nodes, static_cast<double>(kMaxSamples)));
   const double spacing = length / (samples - 1);
   return resampled(averaged(sampled(stroke, samples), spacing), nodes);
 }

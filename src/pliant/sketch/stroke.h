@@ -11,9 +11,9 @@ using Stroke = Polyline;
 
 /// Segments of a filtered stroke are at least this long, pixels, where that leaves
 /// min_stroke_nodes.
-inline constexpr double min_stroke_segment = 5.0;
-inline constexpr Index min_stroke_nodes = 61;
-inline constexpr Index max_stroke_nodes = 1001;
+inline constexpr double kMinStrokeSegment = 5.0;
+inline constexpr Index kMinStrokeNodes = 61;
+inline constexpr Index kMaxStrokeNodes = 1001;
 
 /// At least two samples, finite, with an extent of at least min_stroke_segment.
 /// Errors: invalid_option, naming `argument` ("reference") and the sample.

@@ -15,8 +15,7 @@ using Neighbour = std::pair<Index, double>;  // and the distance to it
 
 /// start + rate times the distance along edges, the least over the points with a finite start
 /// (Dijkstra).
-void spread_bounds(const std::vector<std::vector<Neighbour>>& neighbours, double rate,
-                   std::vector<double>& bounds) {
+void spread_bounds(const std::vector<std::vector<Neighbour>>& neighbours, double rate, std::vector<double>& bounds) {
   using Entry = std::pair<double, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (Index i = 0; i < static_cast<Index>(bounds.size()); ++i) {
@@ -38,9 +37,8 @@ void spread_bounds(const std::vector<std::vector<Neighbour>>& neighbours, double
 
 }  // namespace
 
-void tether(const Points& points, std::span<const Index> point_of_local,
-            std::span<const std::array<Index, 2>> edges, std::span<const double> pinned,
-            double slack, double rate, std::span<double> values) {
+void tether(const Points& points, std::span<const Index> point_of_local, std::span<const std::array<Index, 2>> edges,
+            std::span<const double> pinned, double slack, double rate, std::span<double> values) {
   const auto free = static_cast<Index>(values.size());
   const auto length = [&](Index a, Index b) {
     return (points.col(point_of_local[a]) - points.col(point_of_local[b])).norm();

@@ -14,8 +14,7 @@ namespace pliant {
 /// distance along edges. values: of the free points; pinned: of the pinned ones; ids and edges as
 /// in ParameterSmoother. Nothing is done, at the cost of a look at the edges, where no neighbour of
 /// a pinned point differs that much.
-void tether(const Points& points, std::span<const Index> point_of_local,
-            std::span<const std::array<Index, 2>> edges, std::span<const double> pinned,
-            double slack, double rate, std::span<double> values);
+void tether(const Points& points, std::span<const Index> point_of_local, std::span<const std::array<Index, 2>> edges,
+            std::span<const double> pinned, double slack, double rate, std::span<double> values);
 
 }  // namespace pliant

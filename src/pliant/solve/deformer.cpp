@@ -6,20 +6,15 @@
 namespace pliant {
 namespace {
 
-std::string at(const char* argument, std::size_t i) {
-  return std::string(argument) + "[" + std::to_string(i) + "]";
-}
+std::string at(const char* argument, std::size_t i) { return std::string(argument) + "[" + std::to_string(i) + "]"; }
 
-Status invalid_handle(std::string message) {
-  return {ErrorCode::invalid_handle, std::move(message)};
-}
+Status invalid_handle(std::string message) { return {ErrorCode::invalid_handle, std::move(message)}; }
 
 }  // namespace
 
 Deformer::Deformer(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
 
-Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> vertices,
-                                                    const char* argument,
+Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> vertices, const char* argument,
                                                     std::vector<Index>* kept) const {
   const Index size = shape_->input_size();
   std::vector<bool> seen_vertex(size, false), seen_point(shape_->points().cols(), false);
@@ -27,8 +22,8 @@ Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> verti
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Index vertex = vertices[i];
     if (vertex < 0 || vertex >= size) {
-      return invalid_handle(at(argument, i) + " is " + std::to_string(vertex) +
-                            "; expected a vertex id from 0 to " + std::to_string(size - 1));
+      return invalid_handle(at(argument, i) + " is " + std::to_string(vertex) + "; expected a vertex id from 0 to " +
+                            std::to_string(size - 1));
     }
     if (seen_vertex[vertex]) {
       return invalid_handle(at(argument, i) + " is " + std::to_string(vertex) +
@@ -45,8 +40,7 @@ Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> verti
 }
 
 Handle* Deformer::find(HandleId id) {
-  const auto found =
-      std::find_if(handles_.begin(), handles_.end(), [&](const Handle& h) { return h.id == id; });
+  const auto found = std::find_if(handles_.begin(), handles_.end(), [&](const Handle& h) { return h.id == id; });
   return found == handles_.end() ? nullptr : &*found;
 }
 
@@ -81,8 +75,7 @@ Result<HandleId> Deformer::add_handle(std::span<const Index> vertices) {
   }
   for (Index point : *points) {
     if (!taken[point]) continue;
-    return invalid_handle("vertices holds vertex " +
-                          std::to_string(shape_->vertex_of_point()[point]) +
+    return invalid_handle("vertices holds vertex " + std::to_string(shape_->vertex_of_point()[point]) +
                           ", which is fixed or belongs to another handle; expected a free vertex");
   }
   Handle handle;
@@ -114,8 +107,7 @@ Status Deformer::move_handle(HandleId id, const Motion& motion) {
   const Eigen::Affine3d map = motion.map();
   Points targets(3, handle->rest.cols());
   for (Index i = 0; i < targets.cols(); ++i) targets.col(i) = map * handle->rest.col(i);
-  if (!targets.allFinite())
-    return invalid_handle("the motion takes vertices out of range; expected finite numbers");
+  if (!targets.allFinite()) return invalid_handle("the motion takes vertices out of range; expected finite numbers");
   handle->targets = std::move(targets);
   handle->motion = motion;
   targets_changed();
@@ -162,8 +154,7 @@ void Deformer::save_handles(State& state) const {
   for (const Handle& handle : handles_) {
     sizes.data.push_back(static_cast<double>(handle.points.size()));
     for (Index point : handle.points) vertices.data.push_back(shape_->vertex_of_point()[point]);
-    targets.data.insert(targets.data.end(), handle.targets.data(),
-                        handle.targets.data() + handle.targets.size());
+    targets.data.insert(targets.data.end(), handle.targets.data(), handle.targets.data() + handle.targets.size());
   }
   state.tables.push_back(std::move(sizes));
   state.tables.push_back(std::move(vertices));
@@ -179,15 +170,14 @@ Status Deformer::restore_handles(const State& state) {
   for (double count : sizes->data) {
     const std::size_t size = count > 0.0 && count < 1e9 ? static_cast<std::size_t>(count) : 0;
     if (at + size > vertices->data.size() || 3 * (at + size) > targets->data.size()) {
-      return {ErrorCode::invalid_option,
-              "handles of the state is cut short; expected one target a vertex"};
+      return {ErrorCode::invalid_option, "handles of the state is cut short; expected one target a vertex"};
     }
     for (Handle& handle : handles_) {
       const auto same = [&](Index point, double vertex) {
         return shape_->vertex_of_point()[point] == static_cast<Index>(vertex);
       };
-      if (handle.points.size() != size || !std::equal(handle.points.begin(), handle.points.end(),
-                                                      vertices->data.begin() + at, same)) {
+      if (handle.points.size() != size ||
+          !std::equal(handle.points.begin(), handle.points.end(), vertices->data.begin() + at, same)) {
         continue;
       }
       handle.targets = Eigen::Map<const Points>(targets->data.data() + 3 * at, 3, size);

@@ -25,8 +25,7 @@ class Lbfgs {
 
   /// d <- -H gradient. apply_inverse_metric(d) must replace d by M^-1 d.
   template <class ApplyInverseMetric>
-  void direction(const Eigen::VectorXd& gradient, ApplyInverseMetric&& apply_inverse_metric,
-                 Eigen::VectorXd& d) {
+  void direction(const Eigen::VectorXd& gradient, ApplyInverseMetric&& apply_inverse_metric, Eigen::VectorXd& d) {
     d = -gradient;
     for (int i = 0; i < used_; ++i) {
       const int at = slot(i);

@@ -95,8 +95,7 @@ void LocalGlobal::gather(const Points& values, Vector& unknowns) const {
   }
 }
 
-void LocalGlobal::move(const Points& from, double alpha, const Vector& direction,
-                       Points& to) const {
+void LocalGlobal::move(const Points& from, double alpha, const Vector& direction, Points& to) const {
   const Index n = free_count();
   to = from;
   for (Index i = 0; i < n; ++i) {
@@ -124,8 +123,7 @@ void LocalGlobal::relax(const Points& half_gradient, Points& x) {
   move(Points(x), -1.0, direction_, x);
 }
 
-LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tolerance,
-                                       double diagonal, double noise) {
+LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tolerance, double diagonal, double noise) {
   if (!evaluated_) {
     energy_ = model.evaluate(x, half_gradient_);
     model.accept();
@@ -164,9 +162,8 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
       previous_ = gradient_ - previous_;
       memory_.remember(step_, previous_);
       energy_ = energy;
-      const bool settled =
-          change <= tolerance * std::max(std::abs(energy), noise) &&
-          step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff() <= tolerance * diagonal;
+      const bool settled = change <= tolerance * std::max(std::abs(energy), noise) &&
+                           step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff() <= tolerance * diagonal;
       return {true, settled};
     }
     // Lowest point of the parabola through both energies and the slope, within limits.

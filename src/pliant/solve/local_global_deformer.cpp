@@ -130,13 +130,11 @@ Status LocalGlobalDeformer::Core::set_up(const LocalGlobalDeformer& self) {
 
 /// Moves every part that nothing fixes by the rigid motion that fits its handles best. True where
 /// that meets all targets.
-bool LocalGlobalDeformer::Core::follow_rigidly(const LocalGlobalDeformer& self,
-                                               Points& start) const {
+bool LocalGlobalDeformer::Core::follow_rigidly(const LocalGlobalDeformer& self, Points& start) const {
   std::map<Index, std::vector<std::pair<Index, Eigen::Vector3d>>> wanted;  // of each component
   for (const Handle& handle : self.handles()) {
     for (std::size_t i = 0; i < handle.points.size(); ++i) {
-      wanted[component[handle.points[i]]].emplace_back(handle.points[i],
-                                                       handle.targets.col(static_cast<Index>(i)));
+      wanted[component[handle.points[i]]].emplace_back(handle.points[i], handle.targets.col(static_cast<Index>(i)));
     }
   }
   for (Index p : self.fixed_points()) wanted.erase(component[p]);
@@ -146,8 +144,8 @@ bool LocalGlobalDeformer::Core::follow_rigidly(const LocalGlobalDeformer& self,
     for (const auto& [p, target] : points) fit.add(x.col(p), target);
     const RigidMotion motion = fit.motion();
     for (const auto& [p, target] : points) {
-      met = met && (motion.rotation * x.col(p) + motion.translation - target).norm() <=
-                       kRigid * self.shape().diagonal();
+      met =
+          met && (motion.rotation * x.col(p) + motion.translation - target).norm() <= kRigid * self.shape().diagonal();
     }
     for (Index p = 0; p < start.cols(); ++p) {
       if (component[p] == part) start.col(p) = motion.rotation * x.col(p) + motion.translation;
@@ -163,8 +161,8 @@ std::pair<Points, bool> LocalGlobalDeformer::Core::turns(const LocalGlobalDeform
   std::map<HandleId, Eigen::Vector3d> told;
   for (const Handle& handle : self.handles()) {
     const auto before = applied.try_emplace(handle.id, Motion{}).first;
-    told[handle.id] = handle.motion ? turn_between(before->second, *handle.motion)
-                                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    told[handle.id] =
+        handle.motion ? turn_between(before->second, *handle.motion) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     beyond_half_turn = beyond_half_turn || told[handle.id].norm() > std::numbers::pi;
     before->second = handle.motion;
     if (!handle.motion && handle.targets == handle.rest) before->second = Motion{};
@@ -175,8 +173,7 @@ std::pair<Points, bool> LocalGlobalDeformer::Core::turns(const LocalGlobalDeform
     RigidFit fit;
     for (std::size_t i = 0; i < handle.points.size(); ++i)
       fit.add(x.col(handle.points[i]), handle.targets.col(static_cast<Index>(i)));
-    const Eigen::Vector3d turn =
-        beyond_half_turn ? told[handle.id] : rotation_vector_of(fit.motion().rotation);
+    const Eigen::Vector3d turn = beyond_half_turn ? told[handle.id] : rotation_vector_of(fit.motion().rotation);
     for (Index p : handle.points) turns.col(p) = turn;
   }
   return {turns, beyond_half_turn};
@@ -270,8 +267,8 @@ Result<StepReport> LocalGlobalDeformer::do_step(double tolerance) {
   if (core.targets_changed) core.take_targets(*this);
   WithSoftHandles model = core.energy(*this);
   const double diagonal = shape().diagonal();
-  const auto outcome = core.solver.step(model, core.x, tolerance, diagonal,
-                                        kNoise * model.stiffness() * diagonal * diagonal);
+  const auto outcome =
+      core.solver.step(model, core.x, tolerance, diagonal, kNoise * model.stiffness() * diagonal * diagonal);
   if (outcome.accepted) ++core.iteration;
   if (outcome.accepted && !core.weight) core.energy_at_x = core.solver.energy();
   return StepReport{core.iteration, core.solver.energy(), outcome.accepted, outcome.converged};
@@ -300,9 +297,7 @@ Counters LocalGlobalDeformer::counters() const {
 
 Points LocalGlobalDeformer::point_positions() const { return core_->x; }
 
-Points LocalGlobalDeformer::point_normals() const {
-  return pliant::point_normals(core_->x, shape().triangles());
-}
+Points LocalGlobalDeformer::point_normals() const { return pliant::point_normals(core_->x, shape().triangles()); }
 
 Result<Points> LocalGlobalDeformer::transform_points(const Points&) const {
   return Status(ErrorCode::not_solvable,
@@ -320,12 +315,10 @@ Status LocalGlobalDeformer::restore(const State& state) {
   const StateTable* result = state.find("result");
   const std::size_t expected = 3 * static_cast<std::size_t>(shape().input_size());
   if (result == nullptr || result->data.size() != expected) {
-    return {ErrorCode::invalid_option, "the state has no result of " +
-                                           std::to_string(expected / 3) +
+    return {ErrorCode::invalid_option, "the state has no result of " + std::to_string(expected / 3) +
                                            " points; expected one of this method on this shape"};
   }
-  if (!std::all_of(result->data.begin(), result->data.end(),
-                   [](double v) { return std::isfinite(v); })) {
+  if (!std::all_of(result->data.begin(), result->data.end(), [](double v) { return std::isfinite(v); })) {
     return {ErrorCode::invalid_option, "result of the state holds a number that is not finite"};
   }
   const Eigen::Map<const Points> points(result->data.data(), 3, shape().input_size());

@@ -35,8 +35,7 @@ TEST_CASE("ARAP ends where the plain local-global loop ends, with no more folds"
   for (auto energy : {ArapEnergy::spokes, ArapEnergy::spokes_and_rims}) {
     const auto deformer = arap_of(mesh, {.energy = energy});
     const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
-    REQUIRE(
-        deformer->move_handle(handle, test::turn(60, {1, 0.2, 0}, {0, 0, 0.6}, {0, 0, 0.3})).ok());
+    REQUIRE(deformer->move_handle(handle, test::turn(60, {1, 0.2, 0}, {0, 0, 0.6}, {0, 0, 0.3})).ok());
     const test::ArapReference reference(deformer->shape(), energy == ArapEnergy::spokes_and_rims);
     Points x = deformer->shape().points();
     x(Eigen::all, deformer->handles()[0].points) = deformer->handles()[0].targets;
@@ -64,8 +63,7 @@ TEST_CASE("ARAP needs a tenth of the plain loop's iterations") {
   deformer->reset();
   REQUIRE(deformer->move_handle(handle, test::turn(60, {1, 0, 0}, {0, 0, 3.8}, {0, 0.5, 0})).ok());
   int iterations = 0;
-  for (double energy = 2.0 * enough; energy > enough; ++iterations)
-    energy = deformer->step()->energy;
+  for (double energy = 2.0 * enough; energy > enough; ++iterations) energy = deformer->step()->energy;
   Points x = start;
   const test::ArapReference plain(deformer->shape(), true);
   CHECK(plain.solve(x, held_by(*deformer), 10 * iterations) > enough);
@@ -82,8 +80,7 @@ TEST_CASE("ARAP: handles are exact, or soft and the stiffer the closer") {
     REQUIRE(deformer->move_handle(handle, test::turn(30, {0, 1, 0}, {0, 0, 0}, {0, 0, 0.5})).ok());
     test::settle(*deformer);
     const Handle& moved = deformer->handles()[0];
-    const double miss =
-        test::distance(deformer->point_positions()(Eigen::all, moved.points), moved.targets);
+    const double miss = test::distance(deformer->point_positions()(Eigen::all, moved.points), moved.targets);
     CHECK(miss < 0.5 * last);
     last = miss;
     const Energy energy = deformer->energy();
@@ -113,13 +110,12 @@ TEST_CASE("ARAP: a smooth energy makes a hill of a single-vertex handle, plain A
   double below[2];
   for (bool smooth : {false, true}) {
     const auto deformer = arap_of(mesh, {.smoothness = smooth ? 0.2 : 0.0});
-    REQUIRE(
-        deformer
-            ->set_fixed(test::pick(mesh,
-                                   [](const auto& p) {
-                                     return std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()}) < 0.05;
-                                   }))
-            .ok());
+    REQUIRE(deformer
+                ->set_fixed(test::pick(mesh,
+                                       [](const auto& p) {
+                                         return std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()}) < 0.05;
+                                       }))
+                .ok());
     REQUIRE(deformer->add_handle(std::vector<Index>{15 * 31 + 15}).ok());
     Motion up;
     up.translation = {0, 0, 0.2};
@@ -134,17 +130,14 @@ TEST_CASE("ARAP: a smooth energy makes a hill of a single-vertex handle, plain A
 TEST_CASE("ARAP in the plane stays there, and bends without turning triangles over") {
   const auto mesh = test::plane_grid(9, 25, 1.0, 3.0);
   std::vector<double> flat;
-  for (Index v = 0; v < mesh.vertices(); ++v)
-    flat.insert(flat.end(), {mesh.vertex(v).x(), mesh.vertex(v).y()});
+  for (Index v = 0; v < mesh.vertices(); ++v) flat.insert(flat.end(), {mesh.vertex(v).x(), mesh.vertex(v).y()});
   const auto shape = Shape::create(flat, mesh.triangles, 2);
   REQUIRE(shape.ok());
   for (double degrees : {-20.0, 30.0}) {
     auto deformer = Arap::create(*shape, {});
     REQUIRE(deformer.ok());
-    REQUIRE(
-        (*deformer)->set_fixed(test::pick(mesh, [](const auto& p) { return p.y() < 0.2; })).ok());
-    REQUIRE(
-        (*deformer)->add_handle(test::pick(mesh, [](const auto& p) { return p.y() > 2.8; })).ok());
+    REQUIRE((*deformer)->set_fixed(test::pick(mesh, [](const auto& p) { return p.y() < 0.2; })).ok());
+    REQUIRE((*deformer)->add_handle(test::pick(mesh, [](const auto& p) { return p.y() > 2.8; })).ok());
     REQUIRE((*deformer)->move_handle(1, test::turn(degrees, {0, 0, 1}, {1.5, 1.5, 0})).ok());
     CHECK(test::settle(**deformer, 500, 1e-9).converged);
     const Points now = (*deformer)->positions();
@@ -192,8 +185,7 @@ TEST_CASE("ARAP: bad triangles, fins, loose points and parts nobody holds") {
   const std::uint32_t on_edge = add_point(0.5 / 7, 1e-13, 0), fin = add_point(0.5, 0.5, 0.2);
   mesh.triangles.insert(mesh.triangles.end(), {0, 1, on_edge, 27, 28, fin});
   const std::uint32_t loose = add_point(3, 0, 0);
-  mesh = test::both(
-      mesh, test::transformed(test::plane_grid(4, 4), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 5}));
+  mesh = test::both(mesh, test::transformed(test::plane_grid(4, 4), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 5}));
   for (auto energy : {ArapEnergy::spokes, ArapEnergy::spokes_and_rims}) {
     const auto deformer = arap_of(mesh, {.energy = energy, .smoothness = 0.05});
     REQUIRE(deformer->set_fixed(std::vector<Index>{0, 8, 16, 24, 32, 40, 48, 56}).ok());
@@ -236,8 +228,7 @@ TEST_CASE("ARAP: options change while the deformer lives, at the price the heade
     test::settle(*fresh, 300, 1e-12);
     CHECK(test::distance(deformer->positions(), fresh->positions()) < 1e-5);
     const Counters after = deformer->counters();
-    return std::pair(after.factorizations - before.factorizations,
-                     after.analyses - before.analyses);
+    return std::pair(after.factorizations - before.factorizations, after.analyses - before.analyses);
   };
   test::settle(*deformer);
   CHECK(cost_of({}) == std::pair(0, 0));
@@ -256,20 +247,16 @@ TEST_CASE("ARAP: the saved state gives the energy without Pliant") {
   test::settle(*deformer);
   const State state = deformer->save();
   const test::Mesh soup = test::soup(mesh);
-  const auto &i = state.find("edges/i")->data, &j = state.find("edges/j")->data,
-             &w = state.find("edges/weight")->data, &r = state.find("rotations")->data,
-             &result = state.find("result")->data;
+  const auto &i = state.find("edges/i")->data, &j = state.find("edges/j")->data, &w = state.find("edges/weight")->data,
+             &r = state.find("rotations")->data, &result = state.find("result")->data;
   REQUIRE(result.size() == soup.positions.size());
   double sum = 0.0;
   for (std::size_t e = 0; e < w.size(); ++e) {
     for (auto end : {i[e], j[e]}) {
-      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(
-          &r[9 * static_cast<std::size_t>(end)]);
-      const Eigen::Vector3d now =
-          Eigen::Map<const Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(i[e])]) -
-          Eigen::Map<const Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(j[e])]);
-      const Eigen::Vector3d rest =
-          soup.vertex(static_cast<Index>(i[e])) - soup.vertex(static_cast<Index>(j[e]));
+      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(&r[9 * static_cast<std::size_t>(end)]);
+      const Eigen::Vector3d now = Eigen::Map<const Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(i[e])]) -
+                                  Eigen::Map<const Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(j[e])]);
+      const Eigen::Vector3d rest = soup.vertex(static_cast<Index>(i[e])) - soup.vertex(static_cast<Index>(j[e]));
       sum += w[e] * (now - turn * rest).squaredNorm();
     }
   }
@@ -284,8 +271,7 @@ TEST_CASE("ARAP: bad options and shapes are named") {
     CHECK(result.status().code() == ErrorCode::invalid_option);
     CHECK(result.status().message().c_str() == Contains("constraintWeight"));
   }
-  CHECK(Arap::create(shape, {.smoothness = -0.1}).status().message().c_str() ==
-        Contains("smoothness"));
+  CHECK(Arap::create(shape, {.smoothness = -0.1}).status().message().c_str() == Contains("smoothness"));
   const std::vector<double> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const auto cloud = Shape::create(points, {});
   REQUIRE(cloud.ok());

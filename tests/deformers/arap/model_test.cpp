@@ -1,6 +1,5 @@
 #include "pliant/deformers/arap/model.h"
 
-
 #include <doctest/doctest.h>
 
 #include "deformers/arap/reference.h"
@@ -26,8 +25,7 @@ Points shaken(const Points& points, double by, bool planar = false) {
 TEST_CASE("law 7: the gradient of every ARAP energy agrees with central differences") {
   const auto shape = test::shape_of(test::potato(1));
   for (const ArapOptions& options :
-       {ArapOptions{}, ArapOptions{.energy = ArapEnergy::spokes_and_rims},
-        ArapOptions{.smoothness = 0.2}}) {
+       {ArapOptions{}, ArapOptions{.energy = ArapEnergy::spokes_and_rims}, ArapOptions{.smoothness = 0.2}}) {
     arap::ArapModel model(*shape, options);
     const Points x = shaken(shape->points(), 0.1);
     Points half_gradient, unused;
@@ -45,8 +43,7 @@ TEST_CASE("ARAP: the energy is the one of the plain formula") {
     const auto shape = test::shape_of(mesh);
     const Points x = shaken(shape->points(), 0.2);
     for (bool rims : {false, true}) {
-      arap::ArapModel model(*shape,
-                            {.energy = rims ? ArapEnergy::spokes_and_rims : ArapEnergy::spokes});
+      arap::ArapModel model(*shape, {.energy = rims ? ArapEnergy::spokes_and_rims : ArapEnergy::spokes});
       Points unused;
       std::vector<Eigen::Matrix3d> rotations;
       CHECK(model.evaluate(x, unused) ==

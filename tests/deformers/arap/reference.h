@@ -13,8 +13,7 @@
 namespace pliant::test {
 
 /// Half the cotangent of the corner at c, by trigonometry.
-inline double half_cotangent(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                             const Eigen::Vector3d& c) {
+inline double half_cotangent(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   return 0.5 / std::tan(std::acos((a - c).normalized().dot((b - c).normalized())));
 }
 
@@ -51,8 +50,7 @@ class ArapReference {
   double energy(const Points& x, std::vector<Eigen::Matrix3d>& rotations) const {
     std::vector<Eigen::Matrix3d> s(x.cols(), Eigen::Matrix3d::Zero());
     for (const Item& i : items_) {
-      s[i.cell] +=
-          i.weight * (x.col(i.a) - x.col(i.b)) * (rest_.col(i.a) - rest_.col(i.b)).transpose();
+      s[i.cell] += i.weight * (x.col(i.a) - x.col(i.b)) * (rest_.col(i.a) - rest_.col(i.b)).transpose();
     }
     rotations.clear();
     for (const Eigen::Matrix3d& m : s) {
@@ -63,9 +61,7 @@ class ArapReference {
     }
     double sum = 0.0;
     for (const Item& i : items_) {
-      sum += i.weight *
-             (x.col(i.a) - x.col(i.b) - rotations[i.cell] * (rest_.col(i.a) - rest_.col(i.b)))
-                 .squaredNorm();
+      sum += i.weight * (x.col(i.a) - x.col(i.b) - rotations[i.cell] * (rest_.col(i.a) - rest_.col(i.b))).squaredNorm();
     }
     return sum;
   }
@@ -92,8 +88,7 @@ class ArapReference {
       Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(n, 3);
       for (const Item& item : items_) {
         const Eigen::RowVector3d d =
-            item.weight *
-            (rotations[item.cell] * (rest_.col(item.a) - rest_.col(item.b))).transpose();
+            item.weight * (rotations[item.cell] * (rest_.col(item.a) - rest_.col(item.b))).transpose();
         rhs.row(item.a) += d;
         rhs.row(item.b) -= d;
       }

@@ -39,8 +39,7 @@ TEST_CASE("rotations: the closed form finds what the SVD finds") {
 
 TEST_CASE("rotations: a turned neighbourhood gives the turn, also half a turn and a flat one") {
   for (double angle : {0.0, 1e-9, 1.0, 3.0, std::numbers::pi}) {
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(angle, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
     for (double thickness : {1.0, 0.0}) {
       Rotations s(9, 1);
       s.col(0) = (turn * Eigen::Vector3d(2, 1, thickness).asDiagonal()).reshaped();
@@ -80,13 +79,9 @@ TEST_CASE("rotations: neighbourhoods of a single edge, whose minors are rounding
 
 TEST_CASE("rotations: planar ones turn about z only, mirrored neighbourhoods included") {
   Rotations s(9, 2);
-  s.col(0) =
-      (Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()) * Eigen::Vector3d(3, 1, 0).asDiagonal())
-          .reshaped();
+  s.col(0) = (Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()) * Eigen::Vector3d(3, 1, 0).asDiagonal()).reshaped();
   s.col(1) = Eigen::Matrix3d(Eigen::Vector3d(2, -1, 0).asDiagonal()).reshaped();
   const Rotations r = fitted(s, true);
-  CHECK((r.col(0).reshaped(3, 3) -
-         Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix())
-            .norm() < 1e-14);
+  CHECK((r.col(0).reshaped(3, 3) - Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix()).norm() < 1e-14);
   CHECK(r.col(1).reshaped(3, 3) == Eigen::Matrix3d::Identity());
 }

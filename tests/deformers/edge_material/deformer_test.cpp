@@ -15,8 +15,7 @@ using Kind = DirectionField::Kind;
 
 namespace {
 
-std::unique_ptr<EdgeMaterial> material_of(const test::Mesh& mesh,
-                                          const EdgeMaterialOptions& options = {}) {
+std::unique_ptr<EdgeMaterial> material_of(const test::Mesh& mesh, const EdgeMaterialOptions& options = {}) {
   auto deformer = EdgeMaterial::create(test::shape_of(mesh), options);
   REQUIRE_MESSAGE(deformer.ok(), deformer.status().message());
   return std::move(*deformer);
@@ -79,12 +78,7 @@ std::unique_ptr<EdgeMaterial> grabbed_tube(double lambda) {
 }
 
 double middle_radius(const Deformer& tube) {
-  return tube.positions()
-      .middleCols(kRings / 2 * kAround, kAround)
-      .topRows<2>()
-      .colwise()
-      .norm()
-      .mean();
+  return tube.positions().middleCols(kRings / 2 * kAround, kAround).topRows<2>().colwise().norm().mean();
 }
 
 double degrees_turned(const Deformer& tube) {
@@ -103,9 +97,9 @@ TEST_CASE("edge material: unedited shapes of every kind stay put") {
   test::Mesh fins = test::plane_grid(6, 6);
   fins.positions.insert(fins.positions.end(), {0.5, 0.5, 0.3});
   fins.triangles.insert(fins.triangles.end(), {14, 15, 36});
-  for (const auto& mesh : {test::plane_grid(12, 12), test::bumpy_plane(25, 2, 0.05),
-                           test::tube(20, 12), even_tube(), test::torus(30, 14), test::sphere(2),
-                           test::soup(test::potato(2)), fins, test::box(1, 0.6, 0.4, 0.2)}) {
+  for (const auto& mesh :
+       {test::plane_grid(12, 12), test::bumpy_plane(25, 2, 0.05), test::tube(20, 12), even_tube(), test::torus(30, 14),
+        test::sphere(2), test::soup(test::potato(2)), fins, test::box(1, 0.6, 0.4, 0.2)}) {
     for (double stretch : {0.0, 1.0}) {
       const auto deformer = material_of(mesh, {.stretch = stretch});
       REQUIRE(deformer->add_handle(std::vector<Index>{0, 3, 11}).ok());
@@ -121,14 +115,12 @@ TEST_CASE("edge material: unedited shapes of every kind stay put") {
 
 TEST_CASE("edge material rests at or below the energy of the paper's own iteration") {
   const auto mesh = test::potato(2);
-  for (const auto& options :
-       {EdgeMaterialOptions{.lambda = 0.01}, EdgeMaterialOptions{.lambda = 0.5},
-        EdgeMaterialOptions{.lambda = 0.1, .p_stretch = 0.5, .p_bend = 0.8},
-        EdgeMaterialOptions{.lambda = 0.1, .field = {.kind = Kind::axis, .axis = {1, 0, 0}}}}) {
+  for (const auto& options : {EdgeMaterialOptions{.lambda = 0.01}, EdgeMaterialOptions{.lambda = 0.5},
+                              EdgeMaterialOptions{.lambda = 0.1, .p_stretch = 0.5, .p_bend = 0.8},
+                              EdgeMaterialOptions{.lambda = 0.1, .field = {.kind = Kind::axis, .axis = {1, 0, 0}}}}) {
     const auto deformer = material_of(mesh, options);
     const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
-    REQUIRE(
-        deformer->move_handle(handle, test::turn(40, {1, 0.3, 0}, {0, 0, 0.6}, {0, 0, 0.2})).ok());
+    REQUIRE(deformer->move_handle(handle, test::turn(40, {1, 0.3, 0}, {0, 0, 0.6}, {0, 0, 0.2})).ok());
     CHECK(test::settle(*deformer, 300, 1e-10).converged);
     const test::EdgeReference reference(deformer->save());
     Points x = deformer->positions();
@@ -170,8 +162,7 @@ TEST_CASE("edge material: one full step from the start is the paper's first iter
   CHECK(test::distance(deformer->positions(), x) < 0.1 * test::distance(x, rest));
 }
 
-TEST_CASE(
-    "edge material, figure 2: the stiffer against stretch the less a lifted plane stretches") {
+TEST_CASE("edge material, figure 2: the stiffer against stretch the less a lifted plane stretches") {
   const double soft = mean_stretch(*lifted_plane(101, {.lambda = 0.0}));
   CHECK(mean_stretch(*lifted_plane(101, {.lambda = 1e-4})) <= 0.95 * soft);
   CHECK(mean_stretch(*lifted_plane(101, {.lambda = 1e-3})) <= 0.75 * soft);
@@ -192,8 +183,7 @@ TEST_CASE("edge material: (lambda, p) and (lambda p, 1) rest in the same state")
   CHECK(whole->energy().total == doctest::Approx(part->energy().total));
 }
 
-TEST_CASE(
-    "edge material, figure 3: a tube twisted by 90 degrees settles, keeps its width, and mirrors") {
+TEST_CASE("edge material, figure 3: a tube twisted by 90 degrees settles, keeps its width, and mirrors") {
   Points twisted[2];
   for (double sign : {1.0, -1.0}) {
     const auto tube = grabbed_tube(0.0);
@@ -277,8 +267,7 @@ TEST_CASE("edge material: a plane pulled both ways gives way across its field") 
 }
 
 TEST_CASE("edge material: a field that vanishes gives finite results") {
-  const auto deformer =
-      material_of(test::plane_grid(9, 9), {.field = {.kind = Kind::axis, .axis = {0, 0, 1}}});
+  const auto deformer = material_of(test::plane_grid(9, 9), {.field = {.kind = Kind::axis, .axis = {0, 0, 1}}});
   REQUIRE(deformer->add_handle(std::vector<Index>{0, 1, 9}).ok());
   REQUIRE(deformer->move_handle(1, test::turn(30, {1, 0, 0}, {0, 0, 0}, {0, 0, 0.2})).ok());
   test::settle(*deformer);
@@ -288,12 +277,10 @@ TEST_CASE("edge material: a field that vanishes gives finite results") {
 
 TEST_CASE("edge material, figure 5: a cloth pinned at its centre falls along gravity and settles") {
   for (double gravity : {0.0, 1.0}) {
-    const auto cloth =
-        material_of(test::plane_grid(61, 61), {.lambda = 1e-3, .gravity = {0, -gravity, -gravity}});
+    const auto cloth = material_of(test::plane_grid(61, 61), {.lambda = 1e-3, .gravity = {0, -gravity, -gravity}});
     REQUIRE(cloth->set_fixed(std::vector<Index>{30 * 61 + 30}).ok());
     CHECK(test::settle(*cloth, 300, 1e-6).converged);
-    const Eigen::Vector3d fallen =
-        cloth->positions().rowwise().mean() - Eigen::Vector3d(0.5, 0.5, 0);
+    const Eigen::Vector3d fallen = cloth->positions().rowwise().mean() - Eigen::Vector3d(0.5, 0.5, 0);
     if (gravity == 0.0) {
       CHECK(cloth->point_positions() == cloth->shape().points());
     } else {
@@ -306,9 +293,8 @@ TEST_CASE("edge material, figure 5: a cloth pinned at its centre falls along gra
 }
 
 TEST_CASE("edge material: parts that nothing holds do not fall") {
-  const auto mesh = test::both(
-      test::plane_grid(5, 5),
-      test::transformed(test::plane_grid(5, 5), 1.0, Eigen::Matrix3d::Identity(), {3, 0, 0}));
+  const auto mesh = test::both(test::plane_grid(5, 5),
+                               test::transformed(test::plane_grid(5, 5), 1.0, Eigen::Matrix3d::Identity(), {3, 0, 0}));
   const auto deformer = material_of(mesh, {.gravity = {0, 0, -1}});
   REQUIRE(deformer->set_fixed(std::vector<Index>{0, 4}).ok());
   test::settle(*deformer, 300);
@@ -330,8 +316,7 @@ TEST_CASE(
     REQUIRE(fresh->set_targets(1, deformer->handles()[0].targets).ok());
     test::settle(*fresh, 300, 1e-10);
     CHECK(test::distance(fresh->positions(), deformer->positions()) < 1e-4);
-    return std::pair(after.factorizations - before.factorizations,
-                     after.analyses - before.analyses);
+    return std::pair(after.factorizations - before.factorizations, after.analyses - before.analyses);
   };
   const std::pair nothing(0, 0), one(1, 0);
   CHECK(cost_of({.lambda = 1e-3, .p_stretch = 0.5, .p_bend = 0.9}) == nothing);

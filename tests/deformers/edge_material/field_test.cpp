@@ -19,9 +19,7 @@ Points field_of(const test::Mesh& mesh, const DirectionField& field) {
 }
 
 /// |cos| of the angle between a direction of the field and another.
-double agreement(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::abs(a.dot(b)) / b.norm();
-}
+double agreement(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::abs(a.dot(b)) / b.norm(); }
 
 Points polyline(std::initializer_list<Eigen::Vector3d> points) {
   Points line(3, static_cast<Index>(points.size()));
@@ -34,33 +32,30 @@ Points polyline(std::initializer_list<Eigen::Vector3d> points) {
 
 TEST_CASE("direction field: one stroke gives its direction everywhere on a plane") {
   const auto mesh = test::plane_grid(15, 15);
-  const Points field = field_of(
-      mesh, {.kind = Kind::strokes, .strokes = {polyline({{0.2, 0.2, 0.01}, {0.5, 0.35, 0}})}});
+  const Points field =
+      field_of(mesh, {.kind = Kind::strokes, .strokes = {polyline({{0.2, 0.2, 0.01}, {0.5, 0.35, 0}})}});
   for (Index p = 0; p < field.cols(); ++p) CHECK(agreement(field.col(p), {2, 1, 0}) > 1 - 1e-9);
 }
 
 TEST_CASE("direction field: strokes meet halfway, and the way they were drawn does not matter") {
   const auto mesh = test::plane_grid(21, 21);
   for (double sign : {1.0, -1.0}) {
-    const Points field = field_of(
-        mesh, {.kind = Kind::strokes,
-               .strokes = {polyline({{0, 0, 0}, {0, 1, 0}}),
-                           polyline({{1, 0.5 - 0.5 * sign, 0}, {1, 0.5 + 0.5 * sign, 0}})}});
+    const Points field = field_of(mesh, {.kind = Kind::strokes,
+                                         .strokes = {polyline({{0, 0, 0}, {0, 1, 0}}),
+                                                     polyline({{1, 0.5 - 0.5 * sign, 0}, {1, 0.5 + 0.5 * sign, 0}})}});
     CHECK(agreement(field.col(10 * 21 + 10), {0, 1, 0}) > 1 - 1e-9);
-    const Points turning = field_of(
-        mesh, {.kind = Kind::strokes,
-               .strokes = {polyline({{0, 0, 0}, {0, 1, 0}}),
-                           polyline({{1, 0.4, 0}, {1 + sign * 1e-3, 0.4 + sign * 1e-3, 0}})}});
+    const Points turning =
+        field_of(mesh, {.kind = Kind::strokes,
+                        .strokes = {polyline({{0, 0, 0}, {0, 1, 0}}),
+                                    polyline({{1, 0.4, 0}, {1 + sign * 1e-3, 0.4 + sign * 1e-3, 0}})}});
     CHECK(agreement(turning.col(10 * 21 + 19), {1, 1, 0}) > 0.9);
   }
 }
 
 TEST_CASE("direction field: a part without strokes has no direction") {
-  const auto mesh = test::both(
-      test::plane_grid(5, 5),
-      test::transformed(test::plane_grid(5, 5), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 1}));
-  const Points field =
-      field_of(mesh, {.kind = Kind::strokes, .strokes = {polyline({{0, 0, 0}, {1, 0, 0}})}});
+  const auto mesh = test::both(test::plane_grid(5, 5),
+                               test::transformed(test::plane_grid(5, 5), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 1}));
+  const Points field = field_of(mesh, {.kind = Kind::strokes, .strokes = {polyline({{0, 0, 0}, {1, 0, 0}})}});
   CHECK(field.rightCols(25).isZero(0.0));
   CHECK(field.leftCols(25).colwise().norm().minCoeff() > 1 - 1e-12);
 }

@@ -44,8 +44,7 @@ TEST_CASE("edge material: sigma is the signed distance of the edge from the line
     for (bool turned_over : {false, true}) {
       test::Mesh mesh = hinge(angle);
       if (turned_over) {
-        for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
-          std::swap(mesh.triangles[t], mesh.triangles[t + 1]);
+        for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) std::swap(mesh.triangles[t], mesh.triangles[t + 1]);
       }
       const EdgeMaterialModel model(*test::shape_of(mesh));
       const EdgeElement& e = bending_element(model);
@@ -58,8 +57,7 @@ TEST_CASE("edge material: sigma is the signed distance of the edge from the line
   }
 }
 
-TEST_CASE(
-    "edge material: p and q are the feet of the common perpendicular, also off the segments") {
+TEST_CASE("edge material: p and q are the feet of the common perpendicular, also off the segments") {
   for (double shift : {0.1, 0.5, 1.7}) {
     test::Mesh mesh = hinge(0.3, 1.0, shift);
     mesh.positions[7] += 0.4;  // no symmetry
@@ -94,8 +92,7 @@ TEST_CASE("edge material: boundary edges only stretch, fins bend with every pair
   CHECK(pairs == 3);
 
   // The line across runs along the edge.
-  const EdgeMaterialModel sliver(
-      *test::shape_of({{0, 0, 0, 0, 1, 0, -1e-3, -3, 0, 1e-3, 4, 0}, {0, 1, 2, 1, 0, 3}}));
+  const EdgeMaterialModel sliver(*test::shape_of({{0, 0, 0, 0, 1, 0, -1e-3, -3, 0, 1e-3, 4, 0}, {0, 1, 2, 1, 0, 3}}));
   for (const EdgeElement& e : sliver.elements()) CHECK(e.l == -1);
 }
 
@@ -111,8 +108,7 @@ TEST_CASE("law 7: the gradient of edge material agrees with central differences"
     const Points x = shaken(shape->points(), 0.1);
     Points half_gradient, unused;
     const double total = model.evaluate(x, half_gradient);
-    CHECK(total == doctest::Approx(0.8 * lambda * model.stretch() + 0.6 * mu * model.bend() +
-                                   model.gravity()));
+    CHECK(total == doctest::Approx(0.8 * lambda * model.stretch() + 0.6 * mu * model.bend() + model.gravity()));
     const auto energy = [&](const Eigen::VectorXd& at) {
       return model.evaluate(at.reshaped(3, at.size() / 3), unused);
     };
@@ -130,8 +126,7 @@ TEST_CASE("edge material: a fold keeps the previous normal and finite forces") {
   CHECK(half_gradient.allFinite());
 }
 
-TEST_CASE(
-    "edge material: kappa follows eq. 13, knows no sign and is 1 where there is no direction") {
+TEST_CASE("edge material: kappa follows eq. 13, knows no sign and is 1 where there is no direction") {
   const auto shape = test::shape_of(test::plane_grid(5, 5));
   EdgeMaterialModel model(*shape);
   Points field = Points::Zero(3, 25);

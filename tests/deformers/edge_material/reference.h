@@ -14,14 +14,12 @@ class EdgeReference {
  public:
   explicit EdgeReference(const State& state) {
     const auto column = [&](const char* name) { return state.find(name)->data; };
-    const auto i = column("edges/i"), j = column("edges/j"), l = column("edges/l"),
-               m = column("edges/m"), alpha = column("edges/alpha"), beta = column("edges/beta"),
-               rho = column("edges/rho"), sigma = column("edges/sigma"),
-               kappa = column("edges/kappa");
+    const auto i = column("edges/i"), j = column("edges/j"), l = column("edges/l"), m = column("edges/m"),
+               alpha = column("edges/alpha"), beta = column("edges/beta"), rho = column("edges/rho"),
+               sigma = column("edges/sigma"), kappa = column("edges/kappa");
     for (std::size_t e = 0; e < i.size(); ++e) {
       const auto id = [](double v) { return static_cast<Index>(v); };
-      edges_.push_back(
-          {id(i[e]), id(j[e]), id(l[e]), id(m[e]), alpha[e], beta[e], rho[e], sigma[e], kappa[e]});
+      edges_.push_back({id(i[e]), id(j[e]), id(l[e]), id(m[e]), alpha[e], beta[e], rho[e], sigma[e], kappa[e]});
     }
     lambda_ = column("weights/lambda")[0];
     mu_ = column("weights/mu")[0];
@@ -33,8 +31,7 @@ class EdgeReference {
   double energy(const Points& x) const {
     double sum = 0.0;
     for (const Edge& e : edges_) {
-      sum += lambda_ * p_stretch_ * e.kappa *
-             (rho(e, x) - e.rho * rho(e, x).normalized()).squaredNorm();
+      sum += lambda_ * p_stretch_ * e.kappa * (rho(e, x) - e.rho * rho(e, x).normalized()).squaredNorm();
       if (e.l < 0) continue;
       sum += mu_ * p_bend_ * e.kappa * (sigma(e, x) - e.sigma * normal(e, x)).squaredNorm();
     }
@@ -45,9 +42,7 @@ class EdgeReference {
   void iterate(Points& x, const std::vector<bool>& held, int iterations) const {
     const Index n = static_cast<Index>(x.cols());
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
-    const auto add_squared = [&](const Eigen::VectorXd& row, double weight) {
-      k += weight * row * row.transpose();
-    };
+    const auto add_squared = [&](const Eigen::VectorXd& row, double weight) { k += weight * row * row.transpose(); };
     for (const Edge& e : edges_) {
       add_squared(rho_row(e, n), lambda_ * e.kappa);
       if (e.l >= 0) add_squared(sigma_row(e, n), mu_ * e.kappa);
@@ -61,8 +56,7 @@ class EdgeReference {
     for (int i = 0; i < iterations; ++i) {
       Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(n, 3);
       for (const Edge& e : edges_) {
-        const Eigen::Vector3d wanted =
-            (1 - p_stretch_) * rho(e, x) + p_stretch_ * e.rho * rho(e, x).normalized();
+        const Eigen::Vector3d wanted = (1 - p_stretch_) * rho(e, x) + p_stretch_ * e.rho * rho(e, x).normalized();
         rhs += lambda_ * e.kappa * rho_row(e, n) * wanted.transpose();
         if (e.l < 0) continue;
         const Eigen::Vector3d bent = (1 - p_bend_) * sigma(e, x) + p_bend_ * e.sigma * normal(e, x);
@@ -96,15 +90,12 @@ class EdgeReference {
   }
   static Eigen::Vector3d rho(const Edge& e, const Points& x) { return x.col(e.i) - x.col(e.j); }
   static Eigen::Vector3d sigma(const Edge& e, const Points& x) {
-    return e.alpha * x.col(e.i) + (1 - e.alpha) * x.col(e.j) - e.beta * x.col(e.l) -
-           (1 - e.beta) * x.col(e.m);
+    return e.alpha * x.col(e.i) + (1 - e.alpha) * x.col(e.j) - e.beta * x.col(e.l) - (1 - e.beta) * x.col(e.m);
   }
   /// Eq. 4: l lies left of the way from i to j, m right.
   static Eigen::Vector3d normal(const Edge& e, const Points& x) {
-    const Eigen::Vector3d left =
-        (x.col(e.j) - x.col(e.i)).cross(Eigen::Vector3d(x.col(e.l) - x.col(e.i)));
-    const Eigen::Vector3d right =
-        (x.col(e.i) - x.col(e.j)).cross(Eigen::Vector3d(x.col(e.m) - x.col(e.j)));
+    const Eigen::Vector3d left = (x.col(e.j) - x.col(e.i)).cross(Eigen::Vector3d(x.col(e.l) - x.col(e.i)));
+    const Eigen::Vector3d right = (x.col(e.i) - x.col(e.j)).cross(Eigen::Vector3d(x.col(e.m) - x.col(e.j)));
     return (left + right).normalized();
   }
 

@@ -7,12 +7,10 @@
 
 using namespace pliant::embedded;
 
-TEST_CASE(
-    "the barrier is zero where determinants are safe, smooth there, and infinite at a reflection") {
+TEST_CASE("the barrier is zero where determinants are safe, smooth there, and infinite at a reflection") {
   CHECK(barrier::value(1.0) == 0.0);
   CHECK(barrier::value(barrier::kSafeDeterminant) == 0.0);
-  CHECK(barrier::slope(barrier::kSafeDeterminant * (1 - 1e-6)) ==
-        doctest::Approx(0.0).epsilon(1e-4));
+  CHECK(barrier::slope(barrier::kSafeDeterminant * (1 - 1e-6)) == doctest::Approx(0.0).epsilon(1e-4));
   CHECK(std::isinf(barrier::value(0.0)));
   CHECK(std::isinf(barrier::value(-0.3)));
 }

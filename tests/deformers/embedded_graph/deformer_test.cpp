@@ -34,8 +34,7 @@ struct BumpyEdit {
   std::unique_ptr<EmbeddedGraph> deformer;
   HandleId handle;
 
-  BumpyEdit(int n, const EmbeddedGraphOptions& options, double lift)
-      : mesh(test::bumpy_plane(n, 8, 0.02)) {
+  BumpyEdit(int n, const EmbeddedGraphOptions& options, double lift) : mesh(test::bumpy_plane(n, 8, 0.02)) {
     deformer = make(mesh, options);
     REQUIRE(deformer->set_fixed(test::pick(mesh, [](const auto& p) { return p.x() <= 0.1; })).ok());
     handle = *deformer->add_handle(test::pick(mesh, [](const auto& p) { return p.x() >= 0.95; }));
@@ -53,8 +52,7 @@ TEST_CASE("the fast solver reaches the energy of Gauss-Newton") {
     BumpyEdit reference(61, {.node_count = 150, .solver = EmbeddedGraphSolver::gauss_newton}, lift);
     test::settle(*fast.deformer, 200, 1e-12);
     test::settle(*reference.deformer, 60, 1e-12);
-    CHECK(fast.deformer->energy().total ==
-          doctest::Approx(reference.deformer->energy().total).epsilon(1e-4));
+    CHECK(fast.deformer->energy().total == doctest::Approx(reference.deformer->energy().total).epsilon(1e-4));
     CHECK(distance(fast.deformer->positions(), reference.deformer->positions()) < 1e-3);
     // Gauss-Newton refactorises at each step, the fast solver never while dragging.
     CHECK(fast.deformer->counters().factorizations == 1);
@@ -126,8 +124,7 @@ TEST_CASE("no node turns inside out when handles turn far at once") {
 
 TEST_CASE("targets given as positions know turns up to half a turn") {
   const auto mesh = test::tube(20, 60, 0.15, 2.0);
-  const auto by_motion = make(mesh, {.node_count = 80}),
-             by_targets = make(mesh, {.node_count = 80});
+  const auto by_motion = make(mesh, {.node_count = 80}), by_targets = make(mesh, {.node_count = 80});
   const Motion motion = test::turn(110, {1, 0, 0}, {0, 0, 1});
   const HandleId a = test::fix_bottom_grab_top(*by_motion, mesh);
   const HandleId b = test::fix_bottom_grab_top(*by_targets, mesh);
@@ -147,15 +144,13 @@ TEST_CASE("exact handles are met where the graph can meet them") {
     auto violation = [&](bool exact) {
       options.exact_handles = exact;
       const auto deformer = make(mesh, options);
-      REQUIRE(
-          deformer->set_fixed(test::pick(mesh, [](const auto& p) { return p.z() < -0.6; })).ok());
+      REQUIRE(deformer->set_fixed(test::pick(mesh, [](const auto& p) { return p.z() < -0.6; })).ok());
       const HandleId handle = *deformer->add_handle(std::vector<Index>{5});
       Motion motion;
       motion.translation = {0.3, 0.2, 0.5};
       REQUIRE(deformer->move_handle(handle, motion).ok());
       test::settle(*deformer, 400, 1e-8);
-      return (deformer->positions().col(5) - motion.apply(mesh.vertex(5))).norm() /
-             deformer->shape().diagonal();
+      return (deformer->positions().col(5) - motion.apply(mesh.vertex(5))).norm() / deformer->shape().diagonal();
     };
     CHECK(violation(false) > 1e-4);  // a soft constraint leaves a gap ...
     CHECK(violation(true) < 1e-8);   // ... an exact one none
@@ -179,8 +174,7 @@ TEST_CASE("exact handles that contradict each other end without blowing up") {
 
 TEST_CASE("a component without a handle stays, and one with a handle follows it") {
   const auto mesh =
-      test::both(test::potato(2),
-                 test::transformed(test::potato(2), 1.0, Eigen::Matrix3d::Identity(), {50, 0, 0}));
+      test::both(test::potato(2), test::transformed(test::potato(2), 1.0, Eigen::Matrix3d::Identity(), {50, 0, 0}));
   const auto deformer = make(mesh, {.node_count = 60});
   const Index half = mesh.vertices() / 2;
   const HandleId handle = *deformer->add_handle(std::vector<Index>{0, 10, 20, 30});
@@ -201,10 +195,8 @@ TEST_CASE("a path of nodes and a single node are solvable") {
   for (Index count : {12, 1}) {
     EmbeddedGraphOptions options{.sampling = NodeSampling::nodes, .nodes = line.leftCols(count)};
     const auto deformer = make(mesh, options);
-    const HandleId handle =
-        *deformer->add_handle(test::pick(mesh, [](const auto& p) { return p.z() > 0.9; }));
-    const HandleId hold =
-        *deformer->add_handle(test::pick(mesh, [](const auto& p) { return p.z() < 0.1; }));
+    const HandleId handle = *deformer->add_handle(test::pick(mesh, [](const auto& p) { return p.z() > 0.9; }));
+    const HandleId hold = *deformer->add_handle(test::pick(mesh, [](const auto& p) { return p.z() < 0.1; }));
     Motion motion;
     motion.translation = {0.3, 0, 0};
     REQUIRE(deformer->move_handle(handle, motion).ok());
@@ -221,8 +213,7 @@ TEST_CASE("points, soup and the plane are deformed like the mesh they come from"
   const auto fixed = test::pick(mesh, [](const auto& p) { return p.x() < 0.1; });
   Motion motion = test::turn(40, {0, 0, 1}, {1, 0.5, 0}, {-0.1, 0.2, 0});
   std::vector<double> flat;
-  for (Index v = 0; v < mesh.vertices(); ++v)
-    flat.insert(flat.end(), {mesh.vertex(v).x(), mesh.vertex(v).y()});
+  for (Index v = 0; v < mesh.vertices(); ++v) flat.insert(flat.end(), {mesh.vertex(v).x(), mesh.vertex(v).y()});
   const auto plane = Shape::create(flat, mesh.triangles, 2);
   const auto cloud = Shape::create(mesh.positions, {});
   REQUIRE(plane.ok());
@@ -251,8 +242,7 @@ TEST_CASE("normals turn with the shape (eq. 3)") {
   REQUIRE(deformer->move_handle(handle, test::turn(30, {1, 0, 0}, {0, 0, 0})).ok());
   test::settle(*deformer);
   const Points normals = deformer->normals();
-  const auto bent = Shape::create(
-      std::span(deformer->positions().eval().data(), 3 * mesh.vertices()), mesh.triangles);
+  const auto bent = Shape::create(std::span(deformer->positions().eval().data(), 3 * mesh.vertices()), mesh.triangles);
   const Points expected = (*bent)->scatter((*bent)->normals());
   double mean = 0.0;
   for (Index v = 0; v < normals.cols(); ++v) {
@@ -273,8 +263,7 @@ TEST_CASE("the shape's own points carried as foreign points arrive where the sha
   CHECK(distance(*carried, deformer->point_positions()) == 0.0);
 }
 
-TEST_CASE(
-    "refinement adds nodes where the terms are high and lowers what a coarse graph cannot bend") {
+TEST_CASE("refinement adds nodes where the terms are high and lowers what a coarse graph cannot bend") {
   const auto mesh = test::tube(24, 80, 0.1, 2.0);
   const auto deformer = make(mesh, {.node_count = 24});
   const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);

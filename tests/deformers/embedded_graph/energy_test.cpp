@@ -27,10 +27,8 @@ struct Scene {
     graph = build_graph(*shape, *place_nodes(*shape, options), options);
     frozen[3] = true;
     constrained = graph.scaled(shape->points()(Eigen::all, std::vector<Index>{4, 50, 90}));
-    Influences some = compute_influences(
-        *shape, graph, shape->points()(Eigen::all, std::vector<Index>{4, 50, 90}));
-    energy.set_up(graph, frozen, constrained, some,
-                  {.rotation = 1.3, .regularization = 7.0, .constraint = 90.0});
+    Influences some = compute_influences(*shape, graph, shape->points()(Eigen::all, std::vector<Index>{4, 50, 90}));
+    energy.set_up(graph, frozen, constrained, some, {.rotation = 1.3, .regularization = 7.0, .constraint = 90.0});
     targets = test::Random(8).vector(9).reshaped(3, 3);
     energy.constraints().set_targets(targets);
     x = 0.3 * test::Random(2).vector(3 * energy.rows());
@@ -58,18 +56,16 @@ Eigen::Vector3d slow_terms(const Scene& s, const Vector& x) {
   for (const auto& edge : s.graph.edges) {
     for (int way = 0; way < 2; ++way) {
       const Index j = edge[way], k = edge[1 - way];
-      terms[1] += (R[j] * (g.col(k) - g.col(j)) + g.col(j) + t.col(j) - (g.col(k) + t.col(k)))
-                      .squaredNorm();
+      terms[1] += (R[j] * (g.col(k) - g.col(j)) + g.col(j) + t.col(j) - (g.col(k) + t.col(k))).squaredNorm();
     }
   }
-  const Influences influences = compute_influences(
-      *s.shape, s.graph, s.shape->points()(Eigen::all, std::vector<Index>{4, 50, 90}));
+  const Influences influences =
+      compute_influences(*s.shape, s.graph, s.shape->points()(Eigen::all, std::vector<Index>{4, 50, 90}));
   for (Index l = 0; l < 3; ++l) {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     for (int q = 0; q < influences.k; ++q) {
       const Index j = influences.indices[l * influences.k + q];
-      v += influences.weights[l * influences.k + q] *
-           (R[j] * (s.constrained.col(l) - g.col(j)) + g.col(j) + t.col(j));
+      v += influences.weights[l * influences.k + q] * (R[j] * (s.constrained.col(l) - g.col(j)) + g.col(j) + t.col(j));
     }
     terms[2] += (v - (s.constrained.col(l) + s.targets.col(l))).squaredNorm();
   }
@@ -108,8 +104,7 @@ TEST_CASE("the gradient agrees with central differences") {
   const Scene s;
   Vector gradient;
   s.energy.half_gradient(s.x, gradient);
-  const Vector numeric =
-      test::central_differences([&](const Vector& x) { return total_at(s, x); }, s.x);
+  const Vector numeric = test::central_differences([&](const Vector& x) { return total_at(s, x); }, s.x);
   CHECK((2.0 * gradient - numeric).norm() < 1e-7 * numeric.norm());
 }
 
@@ -157,16 +152,14 @@ TEST_CASE("the Gauss-Newton matrix is J'J of the residuals") {
     }
     return f;
   };
-  const double rotation_part =
-      1.3 * ((residuals(s.x + h * d) - residuals(s.x - h * d)) / (2.0 * h)).squaredNorm();
+  const double rotation_part = 1.3 * ((residuals(s.x + h * d) - residuals(s.x - h * d)) / (2.0 * h)).squaredNorm();
   GraphEnergy linear = s.energy;
   const Quartic course = linear.along(s.x, d);
   // Without E_rot the course is a parabola whose c[2] is |J d|^2: take the difference of two
   // weights.
   GraphEnergy quadratic;
   quadratic.set_up(s.graph, s.frozen, s.constrained,
-                   compute_influences(*s.shape, s.graph,
-                                      s.shape->points()(Eigen::all, std::vector<Index>{4, 50, 90})),
+                   compute_influences(*s.shape, s.graph, s.shape->points()(Eigen::all, std::vector<Index>{4, 50, 90})),
                    {.rotation = 0.0, .regularization = 7.0, .constraint = 90.0});
   quadratic.evaluate(s.x);
   const double quadratic_part = quadratic.along(s.x, d).c[2];
@@ -180,13 +173,11 @@ TEST_CASE("the Gauss-Newton matrix is J'J of the residuals") {
   };
   using Block = Eigen::Matrix<double, 12, 12>;
   for (Index j = 0; j < matrix.nodes; ++j) {
-    through_matrix +=
-        of_node(j).dot(Eigen::Map<const Block>(matrix.diagonal_block(j)) * of_node(j));
+    through_matrix += of_node(j).dot(Eigen::Map<const Block>(matrix.diagonal_block(j)) * of_node(j));
   }
   for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
     const auto [j, k] = matrix.edges[e];
-    through_matrix +=
-        2.0 * of_node(k).dot(Eigen::Map<const Block>(matrix.edge_block(e)) * of_node(j));
+    through_matrix += 2.0 * of_node(k).dot(Eigen::Map<const Block>(matrix.edge_block(e)) * of_node(j));
   }
   CHECK(through_matrix == doctest::Approx(quadratic_part + rotation_part).epsilon(1e-7));
   CHECK(course.c[2] > quadratic_part);  // E_rot adds curvature here

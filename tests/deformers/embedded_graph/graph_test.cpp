@@ -16,8 +16,7 @@ Eigen::VectorXd slow_weights(const Points& nodes, const Eigen::Vector3d& p, int 
   std::vector<std::pair<double, Index>> order;
   for (Index j = 0; j < nodes.cols(); ++j) order.push_back({(nodes.col(j) - p).norm(), j});
   std::sort(order.begin(), order.end());
-  const double d_max =
-      k < nodes.cols() ? order[k].first : 2.0 * order[static_cast<std::size_t>(k) - 1].first;
+  const double d_max = k < nodes.cols() ? order[k].first : 2.0 * order[static_cast<std::size_t>(k) - 1].first;
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(nodes.cols());
   for (int s = 0; s < k; ++s) {
     weights[order[s].second] = std::pow(1.0 - order[s].first / d_max, 2);
@@ -72,16 +71,15 @@ TEST_CASE("edges join exactly the nodes that influence a common point") {
 TEST_CASE("degenerate layouts have defined weights") {
   const auto shape = test::shape_of(test::plane_grid(3, 3));
   SUBCASE("one node") {
-    const DeformationGraph graph =
-        graph_of(*shape, {.sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 1)});
+    const DeformationGraph graph = graph_of(*shape, {.sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 1)});
     CHECK(graph.influences.k == 1);
     for (double w : graph.influences.weights) CHECK(w == 1.0);
     CHECK(graph.edges.empty());
     CHECK(graph.length_unit == doctest::Approx(shape->diagonal()));
   }
   SUBCASE("all nodes in one place, on a point: equal weights") {
-    const DeformationGraph graph = graph_of(
-        *shape, {.sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 6), .neighbours = 4});
+    const DeformationGraph graph =
+        graph_of(*shape, {.sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 6), .neighbours = 4});
     for (int s = 0; s < 4; ++s) CHECK(graph.influences.weights[s] == 0.25);
     CHECK(graph.length_unit > 0.0);
   }
@@ -98,9 +96,9 @@ TEST_CASE("degenerate layouts have defined weights") {
 
 TEST_CASE("a cut keeps two sheets that nearly touch apart") {
   // Two parallel sheets, closer to each other than their nodes are apart.
-  const auto shape = test::shape_of(test::both(
-      test::plane_grid(15, 15),
-      test::transformed(test::plane_grid(15, 15), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 0.02})));
+  const auto shape = test::shape_of(
+      test::both(test::plane_grid(15, 15),
+                 test::transformed(test::plane_grid(15, 15), 1.0, Eigen::Matrix3d::Identity(), {0, 0, 0.02})));
   Cut cut;
   for (Index v = 0; v < 450; ++v) (v < 225 ? cut.a : cut.b).push_back(v);
   EmbeddedGraphOptions options{.node_count = 50};
@@ -146,15 +144,13 @@ TEST_CASE("bad options are refused by name") {
   CHECK(message(*shape, {.node_count = -3}).c_str() == Contains("nodeCount is -3"));
   CHECK(message(*shape, {.node_count = 5, .neighbours = 6}).c_str() == Contains("neighbours is 6"));
   CHECK(message(*shape, {.sampling = NodeSampling::nodes}).c_str() == Contains("nodes is empty"));
-  CHECK(message(*shape,
-                {.node_count = 2, .sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 2)})
-            .c_str() == Contains("nodeCount"));
+  CHECK(message(*shape, {.node_count = 2, .sampling = NodeSampling::nodes, .nodes = Points::Zero(3, 2)}).c_str() ==
+        Contains("nodeCount"));
   CHECK(message(*shape, {.rotation_weight = 0.0}).c_str() == Contains("rotationWeight"));
   CHECK(message(*shape, {.constraint_weight = -1.0}).c_str() == Contains("constraintWeight"));
   CHECK(message(*shape, {.cuts = {{{0}, {0}}}}).c_str() == Contains("both sides"));
   CHECK(message(*shape, {.cuts = {{{0}, {}}}}).c_str() == Contains("empty selection"));
   CHECK(message(*shape, {.cuts = {{{0}, {99}}}}).c_str() == Contains("vertex 99"));
-  CHECK(message(**points, {.sampling = NodeSampling::simplify}).c_str() ==
-        Contains("no triangles"));
+  CHECK(message(**points, {.sampling = NodeSampling::simplify}).c_str() == Contains("no triangles"));
   CHECK(EmbeddedGraphOptions{}.validate(*shape).ok());
 }

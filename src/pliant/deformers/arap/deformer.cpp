@@ -17,8 +17,7 @@ Arap::Arap(std::shared_ptr<const Shape> shape, std::unique_ptr<Impl> impl)
 }
 Arap::~Arap() = default;
 
-Result<std::unique_ptr<Arap>> Arap::create(std::shared_ptr<const Shape> shape,
-                                           const ArapOptions& options) {
+Result<std::unique_ptr<Arap>> Arap::create(std::shared_ptr<const Shape> shape, const ArapOptions& options) {
   if (Status s = options.validate(); !s.ok()) return s;
   if (shape->triangles().cols() == 0) {
     return Status(ErrorCode::invalid_shape, "the shape has no triangles; arap expects a surface");

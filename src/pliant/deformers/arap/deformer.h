@@ -14,8 +14,7 @@ namespace pliant {
 class Arap final : public LocalGlobalDeformer {
  public:
   /// Errors: invalid_option; invalid_shape (no triangles).
-  static Result<std::unique_ptr<Arap>> create(std::shared_ptr<const Shape> shape,
-                                              const ArapOptions& options);
+  static Result<std::unique_ptr<Arap>> create(std::shared_ptr<const Shape> shape, const ArapOptions& options);
   ~Arap() override;
 
   /// Replaces the options of a living deformer; handles, targets and the deformation stay, the next

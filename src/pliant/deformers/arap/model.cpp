@@ -17,13 +17,10 @@ constexpr double kLeastMetric = 1e-6;
 using ConstMatrix = Eigen::Map<const Eigen::Matrix3d>;
 using dense::Vec2;
 
-const double* at(const Points& x, Index point) {
-  return x.data() + 3 * static_cast<std::ptrdiff_t>(point);
-}
+const double* at(const Points& x, Index point) { return x.data() + 3 * static_cast<std::ptrdiff_t>(point); }
 double* at(Points& x, Index point) { return x.data() + 3 * static_cast<std::ptrdiff_t>(point); }
 
-Eigen::Vector3d laplacian(const std::vector<std::pair<Index, double>>& entries, Index point,
-                          const Points& x) {
+Eigen::Vector3d laplacian(const std::vector<std::pair<Index, double>>& entries, Index point, const Points& x) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [neighbour, weight] : entries) sum += weight * (x.col(point) - x.col(neighbour));
   return sum;
@@ -78,17 +75,15 @@ std::vector<double> ArapModel::spoke_weights() const {
   return weights;
 }
 
-void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table,
-                         const Points& cotangents, const std::vector<double>& weights,
-                         double smoothness) {
+void ArapModel::add_rows(const Triangles& triangles, const EdgeTable& table, const Points& cotangents,
+                         const std::vector<double>& weights, double smoothness) {
   std::vector<double> area(rest_.cols(), 0.0);
   for (Index t = 0; t < triangles.cols(); ++t) {
     // Half cotangents times squared edges sum up to twice the area.
     double twice = 0.0;
     for (int c = 0; c < 3; ++c) {
       twice += cotangents(c, t) *
-               (rest_.col(triangles((c + 1) % 3, t)) - rest_.col(triangles((c + 2) % 3, t)))
-                   .squaredNorm();
+               (rest_.col(triangles((c + 1) % 3, t)) - rest_.col(triangles((c + 2) % 3, t))).squaredNorm();
     }
     for (Index corner : triangles.col(t)) area[corner] += twice / 6.0;
   }
@@ -121,8 +116,7 @@ BlockMatrix ArapModel::matrix() const {
 
   // Products of the Laplacian's rows reach two edges far.
   std::vector<std::pair<Edge, double>> far;
-  for (std::size_t e = 0; e < edges_.size(); ++e)
-    far.push_back({edges_[e], matrix.off_diagonal[e]});
+  for (std::size_t e = 0; e < edges_.size(); ++e) far.push_back({edges_[e], matrix.off_diagonal[e]});
   for (const Row& row : rows_) {
     std::vector<std::pair<Index, double>> entries = row.entries;
     double sum = 0.0;
@@ -163,8 +157,7 @@ double ArapModel::evaluate(const Points& x, Points& half_gradient) {
   }
   for (const Row& row : rows_) {
     Eigen::Map<Eigen::Matrix3d>(covariances_.col(row.point).data()) +=
-        row.weight * laplacian(row.entries, row.point, x) *
-        laplacian(row.entries, row.point, rest_).transpose();
+        row.weight * laplacian(row.entries, row.point, x) * laplacian(row.entries, row.point, rest_).transpose();
   }
   if (x == rest_) {
     // Exactly at rest the energy is exactly zero.
@@ -193,8 +186,7 @@ double ArapModel::edge_residuals(const Points& from, const Rotations& turns, con
     const Vec2 now = dense::load2(a) - dense::load2(b), now_z = dense::splat2(a[2] - b[2]);
     Vec2 before[3];
     for (int k = 0; k < 3; ++k) {
-      before[k] = dense::splat2(
-          at_rest ? spoke.rest[k] : at(from, spoke.cells[0])[k] - at(from, spoke.cells[1])[k]);
+      before[k] = dense::splat2(at_rest ? spoke.rest[k] : at(from, spoke.cells[0])[k] - at(from, spoke.cells[1])[k]);
     }
     Vec2 force = {}, force_z = {};
     for (int c = 0; c < cells_a_spoke_; c += 2) {
@@ -222,15 +214,14 @@ double ArapModel::edge_residuals(const Points& from, const Rotations& turns, con
   return sum[0] + sum[1];
 }
 
-std::array<double, 2> ArapModel::residuals(const Points& from, const Rotations& turns,
-                                           const Points& x, Points& half_gradient) const {
+std::array<double, 2> ArapModel::residuals(const Points& from, const Rotations& turns, const Points& x,
+                                           Points& half_gradient) const {
   half_gradient.setZero(3, x.cols());
   const double edges = edge_residuals(from, turns, x, half_gradient);
   double rows = 0.0;
   for (const Row& row : rows_) {
-    const Eigen::Vector3d d =
-        laplacian(row.entries, row.point, x) -
-        ConstMatrix(turns.col(row.point).data()) * laplacian(row.entries, row.point, from);
+    const Eigen::Vector3d d = laplacian(row.entries, row.point, x) -
+                              ConstMatrix(turns.col(row.point).data()) * laplacian(row.entries, row.point, from);
     rows += row.weight * d.squaredNorm();
     for (const auto& [neighbour, weight] : row.entries) {
       half_gradient.col(row.point) += row.weight * weight * d;

@@ -59,8 +59,7 @@ class ArapModel final : public LocalModel {
   std::array<double, 2> residuals(const Points& from, const Rotations& turns, const Points& x,
                                   Points& half_gradient) const;
   /// The part of the edges; gradient is added to.
-  double edge_residuals(const Points& from, const Rotations& turns, const Points& x,
-                        Points& half_gradient) const;
+  double edge_residuals(const Points& from, const Rotations& turns, const Points& x, Points& half_gradient) const;
 
   Points rest_;
   bool planar_;

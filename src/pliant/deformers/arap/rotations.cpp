@@ -39,8 +39,7 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   Vec2 root = square_root(1.0 + 2.0 * square_root(minors));
   for (int i = 0; i < kRootSteps; ++i) {
     const Vec2 q = root * root - 1.0;
-    const Vec2 step =
-        (q * q - 8.0 * det * root - 4.0 * minors) / (4.0 * q * root - 8.0 * det + 1e-300);
+    const Vec2 step = (q * q - 8.0 * det * root - 4.0 * minors) / (4.0 * q * root - 8.0 * det + 1e-300);
     root -= step;
     const Vec2 squared = step * step;
     if (squared[0] < kLastStep && squared[1] < kLastStep) break;
@@ -52,16 +51,14 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   Vec2 gram[9];  // S' S
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b <= a; ++b) {
-      gram[3 * a + b] =
-          s[3 * a] * s[3 * b] + s[3 * a + 1] * s[3 * b + 1] + s[3 * a + 2] * s[3 * b + 2];
+      gram[3 * a + b] = s[3 * a] * s[3 * b] + s[3 * a + 1] * s[3 * b + 1] + s[3 * a + 2] * s[3 * b + 2];
       gram[3 * b + a] = gram[3 * a + b];
     }
   }
   const Vec2 inverse = 1.0 / zeta;
   for (int c = 0; c < 3; ++c) {
     for (int k = 0; k < 3; ++k) {
-      const Vec2 cubic =
-          s[k] * gram[3 * c] + s[3 + k] * gram[3 * c + 1] + s[6 + k] * gram[3 * c + 2];
+      const Vec2 cubic = s[k] * gram[3 * c] + s[3 + k] * gram[3 * c + 1] + s[6 + k] * gram[3 * c + 2];
       r[3 * c + k] = inverse * ((kappa + 1.0) * s[3 * c + k] + root * cofactor[3 * c + k] - cubic);
     }
   }

@@ -37,8 +37,7 @@ Result<std::unique_ptr<EdgeMaterial>> EdgeMaterial::create(std::shared_ptr<const
                                                            const EdgeMaterialOptions& options) {
   if (Status s = options.validate(*shape); !s.ok()) return s;
   if (shape->triangles().cols() == 0) {
-    return Status(ErrorCode::invalid_shape,
-                  "the shape has no triangles; edge-material expects a surface");
+    return Status(ErrorCode::invalid_shape, "the shape has no triangles; edge-material expects a surface");
   }
   shape = shape->in_local_order();
   auto field = edge_material::direction_field(*shape, options.field);
@@ -66,8 +65,7 @@ Status EdgeMaterial::set_options(const EdgeMaterialOptions& options) {
   const MaterialWeights& now = impl_->model.weights();
   if (other_field || now.lambda != before.lambda || now.mu != before.mu) {
     matrix_changed();
-  } else if (now.p_stretch != before.p_stretch || now.p_bend != before.p_bend ||
-             now.pull != before.pull) {
+  } else if (now.p_stretch != before.p_stretch || now.p_bend != before.p_bend || now.pull != before.pull) {
     energy_changed();
   }
   return {};
@@ -112,9 +110,7 @@ State EdgeMaterial::save() const {
   add_numbers("edges/rho", &EdgeElement::rho);
   add_numbers("edges/sigma", &EdgeElement::sigma);
   add_numbers("edges/kappa", &EdgeElement::kappa);
-  const auto add_scalar = [&](const char* name, double value) {
-    state.add(name, 0, false).data = {value};
-  };
+  const auto add_scalar = [&](const char* name, double value) { state.add(name, 0, false).data = {value}; };
   add_scalar("weights/lambda", w.lambda);
   add_scalar("weights/mu", w.mu);
   add_scalar("weights/pStretch", w.p_stretch);
@@ -147,8 +143,8 @@ Status EdgeMaterial::restore(const State& state) {
   const double count = static_cast<double>(impl_->model.elements().size());
   for (double edge : folded) {
     if (edge >= 0.0 && edge < count) continue;
-    return {ErrorCode::invalid_option, "folded of the state holds edge " + std::to_string(edge) +
-                                           "; expected 0 to " + std::to_string(count - 1.0)};
+    return {ErrorCode::invalid_option, "folded of the state holds edge " + std::to_string(edge) + "; expected 0 to " +
+                                           std::to_string(count - 1.0)};
   }
   if (Status s = LocalGlobalDeformer::restore(state); !s.ok()) return s;
   for (std::size_t k = 0; k < folded.size(); ++k) {

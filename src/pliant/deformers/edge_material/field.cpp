@@ -54,8 +54,7 @@ Eigen::Vector3d principal_direction(const Eigen::Matrix3d& tensor, const Eigen::
 /// The cotangent Laplacian with positive weights.
 BlockMatrix laplacian(const Shape& shape, const EdgeTable& edges) {
   const Triangles& triangles = shape.triangles();
-  const std::vector<double> weights =
-      cotangent_weights(half_cotangents(shape.points(), triangles), triangles, edges);
+  const std::vector<double> weights = cotangent_weights(half_cotangents(shape.points(), triangles), triangles, edges);
   BlockMatrix matrix;
   matrix.set_zero(1, static_cast<Index>(shape.points().cols()), edges.ends);
   for (Index e = 0; e < edges.size(); ++e) {
@@ -70,8 +69,7 @@ BlockMatrix laplacian(const Shape& shape, const EdgeTable& edges) {
 
 double mean_length(const Shape& shape, const EdgeTable& edges) {
   double sum = 0.0;
-  for (const auto& [a, b] : edges.ends)
-    sum += (shape.points().col(a) - shape.points().col(b)).norm();
+  for (const auto& [a, b] : edges.ends) sum += (shape.points().col(a) - shape.points().col(b)).norm();
   return sum / edges.size();
 }
 
@@ -92,8 +90,7 @@ Index nearest_point(const Points& points, const PointGrid& grid, const Eigen::Ve
 }
 
 /// The direction of every stroke at the points it passes; zero elsewhere.
-Tensors painted_tensors(const Shape& shape, const Points& normals,
-                        const std::vector<Points>& strokes, double spacing) {
+Tensors painted_tensors(const Shape& shape, const Points& normals, const std::vector<Points>& strokes, double spacing) {
   const PointGrid grid(shape.points(), 4.0 * spacing);
   Tensors tensors = Tensors::Zero(6, shape.points().cols());
   for (const Points& stroke : strokes) {
@@ -133,8 +130,7 @@ Result<Points> painted_field(const Shape& shape, const EdgeTable& edges, const P
     tensors.middleRows<3>(3 * half) = values;
   }
   Points field(3, n);
-  for (Index p = 0; p < n; ++p)
-    field.col(p) = principal_direction(matrix_of(tensors.col(p)), normals.col(p));
+  for (Index p = 0; p < n; ++p) field.col(p) = principal_direction(matrix_of(tensors.col(p)), normals.col(p));
   return field;
 }
 
@@ -147,8 +143,7 @@ Points axis_field(const Points& normals, const Eigen::Vector3d& axis) {
   return field;
 }
 
-Points curvature_field(const Shape& shape, const EdgeTable& edges, const Points& normals,
-                       bool largest) {
+Points curvature_field(const Shape& shape, const EdgeTable& edges, const Points& normals, bool largest) {
   const Points areas = triangle_area_vectors(shape.points(), shape.triangles());
   const Index n = static_cast<Index>(normals.cols());
   Tensors ring = Tensors::Zero(6, n), tensors;
@@ -157,8 +152,7 @@ Points curvature_field(const Shape& shape, const EdgeTable& edges, const Points&
     if (around.size() != 2) continue;
     const auto [a, b] = edges.ends[e];
     const Eigen::Vector3d edge = shape.points().col(b) - shape.points().col(a);
-    const Eigen::Vector3d u = areas.col(around[0]).normalized(),
-                          v = areas.col(around[1]).normalized();
+    const Eigen::Vector3d u = areas.col(around[0]).normalized(), v = areas.col(around[1]).normalized();
     // Which triangle comes first decides the sign: the one that walks from a to b.
     const double sign = walks_along(shape.triangles(), around[0], a, b) ? 1.0 : -1.0;
     const double angle = std::atan2(sign * edge.normalized().dot(u.cross(v)), u.dot(v));
@@ -176,8 +170,7 @@ Points curvature_field(const Shape& shape, const EdgeTable& edges, const Points&
   for (Index p = 0; p < n; ++p) {
     // Folded edges lie along the smallest curvature.
     field.col(p).setZero();
-    if (tensors.col(p).norm() > flat)
-      field.col(p) = principal_direction(matrix_of(tensors.col(p)), normals.col(p));
+    if (tensors.col(p).norm() > flat) field.col(p) = principal_direction(matrix_of(tensors.col(p)), normals.col(p));
     if (largest) field.col(p) = normals.col(p).cross(field.col(p)).eval();
   }
   return field;
@@ -206,22 +199,19 @@ Result<Points> geodesic_field(const Shape& shape, const EdgeTable& edges, const 
   for (Index t = 0; t < triangles.cols(); ++t) {
     const Eigen::Vector3d normal = areas.col(t).normalized();
     // Far away heat is tiny: only its course within the triangle matters.
-    const double hottest =
-        std::max({heat[triangles(0, t)], heat[triangles(1, t)], heat[triangles(2, t)]});
+    const double hottest = std::max({heat[triangles(0, t)], heat[triangles(1, t)], heat[triangles(2, t)]});
     if (!(hottest > 0.0)) continue;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     for (int c = 0; c < 3; ++c) {
-      const Eigen::Vector3d across = shape.points().col(triangles((c + 2) % 3, t)) -
-                                     shape.points().col(triangles((c + 1) % 3, t));
+      const Eigen::Vector3d across =
+          shape.points().col(triangles((c + 2) % 3, t)) - shape.points().col(triangles((c + 1) % 3, t));
       gradient += heat[triangles(c, t)] / hottest * normal.cross(across);
     }
     if (gradient.norm() == 0.0) continue;
-    for (Index corner : triangles.col(t))
-      sum.col(corner) += areas.col(t).norm() * gradient.normalized();
+    for (Index corner : triangles.col(t)) sum.col(corner) += areas.col(t).norm() * gradient.normalized();
   }
   Points field(3, matrix.nodes);
-  for (Index p = 0; p < matrix.nodes; ++p)
-    field.col(p) = tangential(sum.col(p), normals.col(p)).normalized();
+  for (Index p = 0; p < matrix.nodes; ++p) field.col(p) = tangential(sum.col(p), normals.col(p)).normalized();
   for (Index vertex : sources) field.col(shape.point_of_vertex()[vertex]).setZero();
   return field;
 }

@@ -27,14 +27,11 @@ constexpr double kFolded = 0.05;
 Eigen::Vector3d rho_of(const EdgeElement& e, const Points& x) { return x.col(e.i) - x.col(e.j); }
 
 Eigen::Vector3d sigma_of(const EdgeElement& e, const Points& x) {
-  return e.alpha * x.col(e.i) + (1.0 - e.alpha) * x.col(e.j) - e.beta * x.col(e.l) -
-         (1.0 - e.beta) * x.col(e.m);
+  return e.alpha * x.col(e.i) + (1.0 - e.alpha) * x.col(e.j) - e.beta * x.col(e.l) - (1.0 - e.beta) * x.col(e.m);
 }
 
 /// Of the quadrilateral: along the normal of eq. 4.
-Eigen::Vector3d area_of(const EdgeElement& e, const Points& x) {
-  return (x.col(e.l) - x.col(e.m)).cross(rho_of(e, x));
-}
+Eigen::Vector3d area_of(const EdgeElement& e, const Points& x) { return (x.col(e.l) - x.col(e.m)).cross(rho_of(e, x)); }
 
 void add_to_ends(const EdgeElement& e, const Eigen::Vector3d& force, Points& sum) {
   sum.col(e.i) += force;
@@ -77,9 +74,7 @@ void EdgeMaterialModel::add_elements(const Triangles& triangles) {
     for (std::size_t a = 0; a < around.size(); ++a) {
       for (std::size_t b = a + 1; b < around.size(); ++b) {
         // l belongs to the triangle that walks from i to j, if the two agree on their sides.
-        const auto across = [&](Index t) {
-          return triangles(corner_across(triangles, t, element.i, element.j), t);
-        };
+        const auto across = [&](Index t) { return triangles(corner_across(triangles, t, element.i, element.j), t); };
         Index l = across(around[a]), m = across(around[b]);
         if (!walks_along(triangles, around[a], element.i, element.j)) std::swap(l, m);
         EdgeElement hinge = element;
@@ -116,8 +111,7 @@ void EdgeMaterialModel::set_field(const Points& field) {
     sum += sum.dot(field.col(e.j)) < 0.0 ? Eigen::Vector3d(-field.col(e.j)) : field.col(e.j);
     const double length = sum.norm();
     // Eq. 13; without a direction the material is isotropic.
-    const double kappa =
-        length > 0.0 ? std::abs(sum.dot(rho_of(e, rest_))) / (length * e.rho) : 1.0;
+    const double kappa = length > 0.0 ? std::abs(sum.dot(rho_of(e, rest_))) / (length * e.rho) : 1.0;
     e.kappa = kLeastKappa + (1.0 - kLeastKappa) * kappa;
   }
 }
@@ -134,9 +128,7 @@ BlockMatrix EdgeMaterialModel::matrix() const {
   entries.reserve(6 * elements_.size());
   BlockMatrix matrix;
   matrix.set_zero(1, static_cast<Index>(rest_.cols()), {});
-  auto add = [&](Index a, Index b, double value) {
-    entries.push_back({{std::min(a, b), std::max(a, b)}, value});
-  };
+  auto add = [&](Index a, Index b, double value) { entries.push_back({{std::min(a, b), std::max(a, b)}, value}); };
   const double lambda = metric_lambda();
   for (const EdgeElement& e : elements_) {
     const double stretch = e.kappa * lambda, bend = e.kappa * weights_.mu;
@@ -185,8 +177,7 @@ double EdgeMaterialModel::evaluate(const Points& x, Points& half_gradient) {
     const double size = area.norm();
     const bool folded = !(size > least_normal_[k]);
     auto normal = trial_normals_.col(static_cast<Index>(k));
-    normal = folded ? Eigen::Vector3d(normals_.col(static_cast<Index>(k)))
-                    : Eigen::Vector3d(area / size);
+    normal = folded ? Eigen::Vector3d(normals_.col(static_cast<Index>(k))) : Eigen::Vector3d(area / size);
     const Eigen::Vector3d residual = sigma_of(e, x) - e.sigma * normal;
     bend_ += e.kappa * residual.squaredNorm();
     add_to_hinge(e, bend * e.kappa * residual, half_gradient);
@@ -194,8 +185,7 @@ double EdgeMaterialModel::evaluate(const Points& x, Points& half_gradient) {
     // The estimation step leaves out that the normal turns with the points. With its derivative the
     // energy has a gradient, and every accepted step lowers it:
     // <residual, dn> = <tangential part, d((j - i) x (l - m))> / |(j - i) x (l - m)|.
-    const Eigen::Vector3d tangential =
-        (bend * e.kappa * e.sigma / size) * (residual - residual.dot(normal) * normal);
+    const Eigen::Vector3d tangential = (bend * e.kappa * e.sigma / size) * (residual - residual.dot(normal) * normal);
     add_to_ends(e, across.cross(tangential), half_gradient);
     const Eigen::Vector3d on_l = tangential.cross(edge);
     half_gradient.col(e.l) += on_l;
@@ -225,8 +215,7 @@ void EdgeMaterialModel::turned_gradient(const Points& from, const Rotations& tur
     const Eigen::Matrix3d turn = 0.5 * (turns.col(e.i) + turns.col(e.j)).reshaped(3, 3);
     add_to_ends(e, lambda * e.kappa * (rho_of(e, x) - turn * rho_of(e, from)), half_gradient);
     if (e.l < 0) continue;
-    add_to_hinge(e, weights_.mu * e.kappa * (sigma_of(e, x) - turn * sigma_of(e, from)),
-                 half_gradient);
+    add_to_hinge(e, weights_.mu * e.kappa * (sigma_of(e, x) - turn * sigma_of(e, from)), half_gradient);
   }
 }
 

@@ -14,9 +14,8 @@ struct EdgeElement {
   Index i, j;
   Index l = -1, m = -1;  ///< -1: no bending term. (j - i) x (l - m) has the direction of eq. 4
   double alpha = 0.5, beta = 0.5;
-  double rho = 0.0;  ///< length at rest
-  double sigma =
-      0.0;  ///< distance of p from q at rest, positive where p - q points along the normal
+  double rho = 0.0;    ///< length at rest
+  double sigma = 0.0;  ///< distance of p from q at rest, positive where p - q points along the normal
   double kappa = 1.0;  ///< eps + (1 - eps) kappa of eq. 13
 };
 

@@ -22,8 +22,7 @@ Status check_strokes(const std::vector<Points>& strokes) {
     const std::string name = "field.strokes[" + std::to_string(i) + "]";
     const Points& stroke = strokes[i];
     if (stroke.cols() < 2) {
-      return invalid(name + " has " + std::to_string(stroke.cols()) +
-                     " points; expected at least 2");
+      return invalid(name + " has " + std::to_string(stroke.cols()) + " points; expected at least 2");
     }
     if (!stroke.allFinite()) return invalid(name + " holds a number that is not finite");
     if ((stroke.colwise() - stroke.col(0)).isZero(0.0)) {
@@ -54,8 +53,7 @@ Status check_field(const DirectionField& field, const Shape& shape) {
 bool DirectionField::operator==(const DirectionField& other) const {
   const auto same = [](const Points& a, const Points& b) { return a.cols() == b.cols() && a == b; };
   return kind == other.kind && axis == other.axis && sources == other.sources &&
-         std::equal(strokes.begin(), strokes.end(), other.strokes.begin(), other.strokes.end(),
-                    same);
+         std::equal(strokes.begin(), strokes.end(), other.strokes.begin(), other.strokes.end(), same);
 }
 
 Status EdgeMaterialOptions::validate(const Shape& shape) const {

@@ -25,9 +25,7 @@ class DeterminantAlong {
  public:
   DeterminantAlong(const Eigen::Matrix3d& r, const Eigen::Matrix3d& d);
   double at_start() const { return c_[0]; }
-  double at(double alpha) const {
-    return c_[0] + alpha * (c_[1] + alpha * (c_[2] + alpha * c_[3]));
-  }
+  double at(double alpha) const { return c_[0] + alpha * (c_[1] + alpha * (c_[2] + alpha * c_[3])); }
 
  private:
   std::array<double, 4> c_;

@@ -12,8 +12,7 @@ namespace {
 using Moments = std::array<double, 10>;
 
 Moments moments_of(const Eigen::Vector3d& v) {
-  return {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[0], v[1] * v[1],
-          v[1] * v[2], v[1],        v[2] * v[2], v[2], 1.0};
+  return {v[0] * v[0], v[0] * v[1], v[0] * v[2], v[0], v[1] * v[1], v[1] * v[2], v[1], v[2] * v[2], v[2], 1.0};
 }
 
 void add_moments(const Moments& moments, double w, Moments& sum) {
@@ -24,8 +23,7 @@ void add_moments(const Moments& moments, double w, Moments& sum) {
 }
 
 /// The same sums of (v - a, 1)(v - b, 1)'.
-Eigen::Matrix4d moments_about(const Moments& sum, const Eigen::Vector3d& a,
-                              const Eigen::Vector3d& b) {
+Eigen::Matrix4d moments_about(const Moments& sum, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   Eigen::Matrix4d m;
   for (int r = 0, i = 0; r < 4; ++r) {
     for (int c = r; c < 4; ++c) m(r, c) = m(c, r) = sum[i++];
@@ -50,9 +48,9 @@ void add_product(const Eigen::Matrix4d& block, const double* x, double* y) {
 
 }  // namespace
 
-void GraphConstraints::set_up(const Points& points, const Influences& influences,
-                              const Points& nodes, const std::vector<Index>& free_of_node,
-                              Index free_nodes, const std::vector<Edge>& edges) {
+void GraphConstraints::set_up(const Points& points, const Influences& influences, const Points& nodes,
+                              const std::vector<Index>& free_of_node, Index free_nodes,
+                              const std::vector<Edge>& edges) {
   free_nodes_ = free_nodes;
   influences_.clear();
   influences_.reserve(influences.indices.size());
@@ -109,8 +107,7 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
     for (std::size_t q = 0; q < count; ++q) {
       const double w = first[q].coefficients[3];
       add_moments(moments, w * w, of_node[nodes[q]]);
-      for (std::size_t p = 0; p < q; ++p)
-        add_moments(moments, w * first[p].coefficients[3], of_edge[*pair++]);
+      for (std::size_t p = 0; p < q; ++p) add_moments(moments, w * first[p].coefficients[3], of_edge[*pair++]);
     }
   }
   blocks_.clear();
@@ -120,8 +117,7 @@ void GraphConstraints::gather_blocks(const Points& points, const Points& free_po
     blocks_.push_back({j, k, edge, block, block.transpose()});
   };
   for (Index j = 0; j < free_nodes_; ++j) add_block(j, j, -1, of_node[j]);
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    add_block(edges[e][0], edges[e][1], static_cast<Index>(e), of_edge[e]);
+  for (std::size_t e = 0; e < edges.size(); ++e) add_block(edges[e][0], edges[e][1], static_cast<Index>(e), of_edge[e]);
 }
 
 void GraphConstraints::add_common(const std::vector<Index>& points, const Eigen::Vector3d& value,
@@ -185,8 +181,7 @@ double GraphConstraints::evaluate(const Vector& x) {
       const double* n = by_node_.data() + 12 * influences_[i].node;
       const double* w = influences_[i].coefficients.data();
       const dense::Vec2 w01 = dense::load2(w), w23 = dense::load2(w + 2);
-      for (int a = 0; a < 3; ++a)
-        sum[a] += w01 * dense::load2(n + 4 * a) + w23 * dense::load2(n + 4 * a + 2);
+      for (int a = 0; a < 3; ++a) sum[a] += w01 * dense::load2(n + 4 * a) + w23 * dense::load2(n + 4 * a + 2);
     }
     double* r = residuals_.data() + 3 * l;
     for (int a = 0; a < 3; ++a) {
@@ -206,8 +201,7 @@ double GraphConstraints::evaluate(const Vector& x) {
   }
   for (Index j = 0; j < free_nodes_; ++j) {
     for (int a = 0; a < 3; ++a) {
-      for (int c = 0; c < 4; ++c)
-        gradient_[a * rows() + 4 * j + c] = sum_by_node_[12 * j + 4 * a + c];
+      for (int c = 0; c < 4; ++c) gradient_[a * rows() + 4 * j + c] = sum_by_node_[12 * j + 4 * a + c];
     }
   }
   return squares[0];
@@ -215,8 +209,7 @@ double GraphConstraints::evaluate(const Vector& x) {
 
 GraphConstraints::Course GraphConstraints::along(const Vector& d) {
   apply_blocks(d, along_);
-  return {2.0 * dense::dot(d.data(), gradient_.data(), d.size()),
-          dense::dot(d.data(), along_.data(), d.size())};
+  return {2.0 * dense::dot(d.data(), gradient_.data(), d.size()), dense::dot(d.data(), along_.data(), d.size())};
 }
 
 }  // namespace pliant::embedded

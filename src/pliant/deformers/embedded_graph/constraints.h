@@ -17,14 +17,12 @@ class GraphConstraints {
   /// scaled positions of all nodes; free_of_node: -1 for frozen ones. edges: between free nodes,
   /// sorted. Targets are at rest.
   void set_up(const Points& points, const Influences& influences, const Points& nodes,
-              const std::vector<Index>& free_of_node, Index free_nodes,
-              const std::vector<Edge>& edges);
+              const std::vector<Index>& free_of_node, Index free_nodes, const std::vector<Edge>& edges);
   /// Displacements from rest that the points should have, 3 x c.
   void set_targets(const Points& displacements) { targets_ = displacements; }
 
   /// product += C' v, where v is `value` at the given points and 0 at the others.
-  void add_common(const std::vector<Index>& points, const Eigen::Vector3d& value,
-                  Vector& product) const;
+  void add_common(const std::vector<Index>& points, const Eigen::Vector3d& value, Vector& product) const;
   /// C x - targets, 3 x c.
   Points residuals(const Vector& x) const;
   /// Adds w C'C to a matrix over all free nodes and the edges of set_up.
@@ -59,8 +57,7 @@ class GraphConstraints {
   };
 
   Index rows() const { return 4 * free_nodes_; }
-  void gather_blocks(const Points& points, const Points& free_positions,
-                     const std::vector<Edge>& edges);
+  void gather_blocks(const Points& points, const Points& free_positions, const std::vector<Edge>& edges);
   void apply_blocks(const Vector& d, Vector& product) const;
 
   Index free_nodes_ = 0;

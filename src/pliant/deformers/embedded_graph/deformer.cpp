@@ -84,8 +84,7 @@ Influences rows_of(const Influences& influences, const std::vector<Index>& rows)
 }
 
 /// Every node that influences a fixed point leaves the unknowns.
-std::vector<bool> frozen_nodes(const DeformationGraph& graph,
-                               const std::vector<Index>& fixed_points) {
+std::vector<bool> frozen_nodes(const DeformationGraph& graph, const std::vector<Index>& fixed_points) {
   std::vector<bool> frozen(graph.size(), false);
   const int k = graph.influences.k;
   for (Index point : fixed_points) {
@@ -106,8 +105,7 @@ Status EmbeddedGraph::Impl::set_up(const EmbeddedGraph& self) {
     if (frozen[j]) start.col(j).setZero();
   }
   const Constrained constrained = constrained_points(self.handles());
-  Status status = solver.set_up(graph, frozen,
-                                graph.scaled(self.shape().points()(Eigen::all, constrained.points)),
+  Status status = solver.set_up(graph, frozen, graph.scaled(self.shape().points()(Eigen::all, constrained.points)),
                                 rows_of(graph.influences, constrained.points),
                                 {weights(), options.solver, options.exact_handles}, start);
   if (!status.ok()) return status;
@@ -145,8 +143,8 @@ embedded::Terms EmbeddedGraph::Impl::terms(const EmbeddedGraph& self) const {
   const Constrained constrained = constrained_points(self.handles());
   GraphEnergy energy;
   const Points rest = graph.scaled(self.shape().points()(Eigen::all, constrained.points));
-  energy.set_up(graph, std::vector<bool>(graph.size(), false), rest,
-                rows_of(graph.influences, constrained.points), weights());
+  energy.set_up(graph, std::vector<bool>(graph.size(), false), rest, rows_of(graph.influences, constrained.points),
+                weights());
   energy.constraints().set_targets(graph.scaled(constrained.targets) - rest);
   energy.evaluate(embedded::unknowns_of(pose));
   return energy.terms();
@@ -167,8 +165,7 @@ PackedMaps EmbeddedGraph::Impl::normal_maps() const {
   PackedMaps maps(12, graph.size());
   for (Index j = 0; j < graph.size(); ++j) {
     const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + embedded::gradient_of(pose, j);
-    maps.col(j) = embedded::pack_map(embedded::cofactors(r) - Eigen::Matrix3d::Identity(),
-                                     Eigen::Vector3d::Zero());
+    maps.col(j) = embedded::pack_map(embedded::cofactors(r) - Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
   }
   return maps;
 }
@@ -208,8 +205,8 @@ Result<StepReport> EmbeddedGraph::do_step(double tolerance) {
   if (!outcome.ok()) return outcome.status();
   impl_->solver.store(impl_->pose);
   if (outcome->accepted) ++impl_->iteration;
-  return StepReport{impl_->iteration, impl_->solver.terms().total(impl_->weights()),
-                    outcome->accepted, outcome->converged};
+  return StepReport{impl_->iteration, impl_->solver.terms().total(impl_->weights()), outcome->accepted,
+                    outcome->converged};
 }
 
 Energy EmbeddedGraph::energy() const {
@@ -228,15 +225,13 @@ Counters EmbeddedGraph::counters() const {
 
 Points EmbeddedGraph::point_positions() const {
   Points out;
-  embedded::carry(impl_->position_maps(), impl_->graph.influences, shape().points(),
-                  impl_->graph.origin, out);
+  embedded::carry(impl_->position_maps(), impl_->graph.influences, shape().points(), impl_->graph.origin, out);
   return out;
 }
 
 Points EmbeddedGraph::point_normals() const {
   Points out;
-  embedded::carry(impl_->normal_maps(), impl_->graph.influences, impl_->rest_normals,
-                  Eigen::Vector3d::Zero(), out);
+  embedded::carry(impl_->normal_maps(), impl_->graph.influences, impl_->rest_normals, Eigen::Vector3d::Zero(), out);
   for (Index i = 0; i < out.cols(); ++i) {
     const double length = out.col(i).norm();
     if (length > 0.0) out.col(i) /= length;
@@ -256,8 +251,7 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
     return Status(ErrorCode::invalid_option,
                   "refine: maxNodes is " + std::to_string(max_nodes) + "; expected at least 1");
   }
-  if (impl_->grab_changed || impl_->targets_changed)
-    return Index{0};  // nothing solved: no terms to go by
+  if (impl_->grab_changed || impl_->targets_changed) return Index{0};  // nothing solved: no terms to go by
   const Points fresh = embedded::nodes_to_add(shape(), impl_->graph, impl_->solver, max_nodes);
   if (fresh.cols() == 0) return Index{0};
   Points nodes(3, impl_->graph.size() + fresh.cols());
@@ -288,8 +282,7 @@ State EmbeddedGraph::save() const {
   state.tables.push_back(std::move(rotations));
   state.tables.push_back(std::move(translations));
   StateTable& edges = state.add("edges", 2, true);
-  for (const auto& [j, k] : graph.edges)
-    edges.data.insert(edges.data.end(), {double(j), double(k)});
+  for (const auto& [j, k] : graph.edges) edges.data.insert(edges.data.end(), {double(j), double(k)});
   const std::vector<bool> is_frozen = frozen_nodes(graph, fixed_points());
   StateTable& frozen = state.add("frozen", 1, true);
   for (Index j = 0; j < graph.size(); ++j) {
@@ -313,8 +306,7 @@ Status EmbeddedGraph::restore(const State& state) {
             "state lacks nodes, rotations or translations; expected a state of embedded-graph"};
   }
   const std::size_t m = nodes->data.size() / 3;
-  if (m == 0 || nodes->data.size() != 3 * m || rotations->data.size() != 9 * m ||
-      translations->data.size() != 3 * m) {
+  if (m == 0 || nodes->data.size() != 3 * m || rotations->data.size() != 9 * m || translations->data.size() != 3 * m) {
     return {ErrorCode::invalid_option,
             "nodes, rotations and translations of the state differ in length; expected one of each "
             "a node"};
@@ -322,8 +314,7 @@ Status EmbeddedGraph::restore(const State& state) {
   for (const StateTable* table : {nodes, rotations, translations}) {
     for (double value : table->data) {
       if (!std::isfinite(value))
-        return {ErrorCode::invalid_option,
-                table->name + " of the state holds a number that is not finite"};
+        return {ErrorCode::invalid_option, table->name + " of the state holds a number that is not finite"};
     }
   }
   const Points positions = Eigen::Map<const Points>(nodes->data.data(), 3, static_cast<Index>(m));

@@ -75,8 +75,7 @@ Vec2 rotation_terms_of(const TwoMatrices& u) {
 
 double dot(const Points& a, const Points& b) { return dense::dot(a.data(), b.data(), a.size()); }
 
-void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d& columns,
-               double w = 1.0) {
+void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d& columns, double w = 1.0) {
   const dense::Vec2 r01 = dense::load2(rows.data()), r23 = dense::load2(rows.data() + 2);
   for (int c = 0; c < 4; ++c, block += 4) {
     const dense::Vec2 scale = dense::splat2(w * columns[c]);
@@ -112,9 +111,8 @@ double Quartic::first_minimum() const {
   return alpha;
 }
 
-void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
-                         const Points& constrained, const Influences& influences,
-                         const Weights& weights) {
+void GraphEnergy::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, const Points& constrained,
+                         const Influences& influences, const Weights& weights) {
   weights_ = weights;
   all_nodes_ = graph.size();
   const Points g = graph.scaled(graph.nodes);
@@ -178,9 +176,7 @@ void GraphEnergy::for_node_pairs(F f) const {
 
 double GraphEnergy::rotation_terms(const Vector& x) const {
   Vec2 sum = {};
-  for_node_pairs([&](Index j, Index k, Vec2 counts) {
-    sum += counts * rotation_terms_of(gradients(*this, x, j, k));
-  });
+  for_node_pairs([&](Index j, Index k, Vec2 counts) { sum += counts * rotation_terms_of(gradients(*this, x, j, k)); });
   return sum[0] + sum[1];
 }
 
@@ -190,8 +186,7 @@ void GraphEnergy::evaluate(const Vector& x) {
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
-  const double constraint =
-      terms_.constraint + alpha * (con_along_.slope + alpha * con_along_.curvature);
+  const double constraint = terms_.constraint + alpha * (con_along_.slope + alpha * con_along_.curvature);
   // What is left after such a fall is mostly rounding.
   if (!(constraint > 1e-4 * terms_.constraint)) return evaluate(x);
   reg_ += alpha * reg_along_;
@@ -209,8 +204,7 @@ void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
                              std::vector<double>& regularization) const {
   rotation.assign(all_nodes_, 0.0);
   regularization.assign(all_nodes_, 0.0);
-  for (Index j = 0; j < free_nodes(); ++j)
-    rotation[node_of_free_[j]] = rotation_terms_of(gradients(*this, x, j, j))[0];
+  for (Index j = 0; j < free_nodes(); ++j) rotation[node_of_free_[j]] = rotation_terms_of(gradients(*this, x, j, j))[0];
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto [j, k, d] = edges_[e];
     if (j >= 0) regularization[node_of_free_[j]] += reg_.col(2 * e).squaredNorm();
@@ -264,10 +258,8 @@ Quartic GraphEnergy::along(const Vector& x, const Vector& d) {
   Quartic course;
   auto& c = course.c;
   c[0] = total();
-  c[1] = 2.0 * weights_.regularization * dot(reg_, reg_along_) +
-         weights_.constraint * con_along_.slope;
-  c[2] = weights_.regularization * dot(reg_along_, reg_along_) +
-         weights_.constraint * con_along_.curvature;
+  c[1] = 2.0 * weights_.regularization * dot(reg_, reg_along_) + weights_.constraint * con_along_.slope;
+  c[2] = weights_.regularization * dot(reg_along_, reg_along_) + weights_.constraint * con_along_.curvature;
   Vec2 sums[5] = {};
   for_node_pairs([&](Index j, Index k, Vec2 counts) {
     const TwoMatrices u = gradients(*this, x, j, k), step = gradients(*this, d, j, k);
@@ -310,19 +302,15 @@ void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
   constraints_.add_to(matrix, weights_.constraint);
 }
 
-void GraphEnergy::gauss_newton_matrix(const Vector& x, const BlockMatrix& constant,
-                                      BlockMatrix& matrix) const {
-  if (matrix.block != 12 || matrix.nodes != free_nodes())
-    matrix.set_zero(12, free_nodes(), free_edges_);
+void GraphEnergy::gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const {
+  if (matrix.block != 12 || matrix.nodes != free_nodes()) matrix.set_zero(12, free_nodes(), free_edges_);
   using Block = Eigen::Matrix<double, 12, 12>;
   auto expand = [](const double* from, double* to) {
     Eigen::Map<Block> block(to);
     block.setZero();
-    for (int a = 0; a < 3; ++a)
-      block.block<4, 4>(4 * a, 4 * a) = Eigen::Map<const Eigen::Matrix4d>(from);
+    for (int a = 0; a < 3; ++a) block.block<4, 4>(4 * a, 4 * a) = Eigen::Map<const Eigen::Matrix4d>(from);
   };
-  for (std::size_t e = 0; e < free_edges_.size(); ++e)
-    expand(constant.edge_block(e), matrix.edge_block(e));
+  for (std::size_t e = 0; e < free_edges_.size(); ++e) expand(constant.edge_block(e), matrix.edge_block(e));
   for (Index j = 0; j < free_nodes(); ++j) {
     expand(constant.diagonal_block(j), matrix.diagonal_block(j));
     Eigen::Map<Block> block(matrix.diagonal_block(j));

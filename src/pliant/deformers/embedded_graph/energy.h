@@ -36,9 +36,7 @@ struct Terms {
 /// F(x + alpha d) = sum of c[i] alpha^i: E_rot is quartic along a line, the others quadratic.
 struct Quartic {
   std::array<double, 5> c{};
-  double value(double alpha) const {
-    return c[0] + alpha * (c[1] + alpha * (c[2] + alpha * (c[3] + alpha * c[4])));
-  }
+  double value(double alpha) const { return c[0] + alpha * (c[1] + alpha * (c[2] + alpha * (c[3] + alpha * c[4]))); }
   /// Smallest alpha > 0 at which the function stops falling; c[1] < 0. 0 where it never falls.
   double first_minimum() const;
 };
@@ -47,8 +45,8 @@ class GraphEnergy {
  public:
   /// constrained: scaled rest positions of the constrained points with their influences.
   /// frozen: nodes that stay at rest (they leave the unknowns). Keeps references to nothing.
-  void set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
-              const Points& constrained, const Influences& influences, const Weights& weights);
+  void set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, const Points& constrained,
+              const Influences& influences, const Weights& weights);
   GraphConstraints& constraints() { return constraints_; }
   const GraphConstraints& constraints() const { return constraints_; }
 
@@ -70,8 +68,7 @@ class GraphEnergy {
   const Terms& terms() const { return terms_; }
   double total() const { return terms_.total(weights_); }
   /// Terms of every node of the graph: its rotation, and its directed edges' regularisation.
-  void node_terms(const Vector& x, std::vector<double>& rotation,
-                  std::vector<double>& regularization) const;
+  void node_terms(const Vector& x, std::vector<double>& rotation, std::vector<double>& regularization) const;
 
   /// Half the gradient of F at the current x.
   void half_gradient(const Vector& x, Vector& gradient) const;
@@ -86,9 +83,7 @@ class GraphEnergy {
 
   // The four numbers of row a of free node j.
   double* entry(Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
-  const double* entry(const Vector& x, int a, Index j) const {
-    return x.data() + a * rows() + 4 * j;
-  }
+  const double* entry(const Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
   Eigen::Matrix3d displacement_gradient(const Vector& x, Index free_node) const;  ///< U_j
   Eigen::Vector3d translation(const Vector& x, Index free_node) const;            ///< t_j
 

@@ -29,8 +29,8 @@ struct PointCloud {
     return false;
   }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>,
-                                                 PointCloud, 3, Index>;
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3, Index>;
 
 /// The nodes nearest to a point, nearest first, with their squared distances.
 struct Nearest {
@@ -45,8 +45,7 @@ struct Nearest {
 
   /// Drops the nodes across each cut: those on the other side than the point, or, for a point on
   /// neither side, than the first node that is on one.
-  void respect(const std::vector<CutSides>& node_sides,
-               std::span<const unsigned char> point_sides) {
+  void respect(const std::vector<CutSides>& node_sides, std::span<const unsigned char> point_sides) {
     for (std::size_t c = 0; c < node_sides.size(); ++c) {
       unsigned char side = point_sides[c];
       std::size_t kept = 0;
@@ -68,9 +67,8 @@ struct Nearest {
 void write_weights(const Nearest& nearest, int k, Index* indices, double* weights) {
   const std::size_t found = nearest.nodes.size();
   const int used = std::min<int>(k, static_cast<int>(found));
-  const double d_max = found > static_cast<std::size_t>(k)
-                           ? std::sqrt(nearest.squared[k])
-                           : 2.0 * std::sqrt(nearest.squared[used - 1]);
+  const double d_max =
+      found > static_cast<std::size_t>(k) ? std::sqrt(nearest.squared[k]) : 2.0 * std::sqrt(nearest.squared[used - 1]);
   double sum = 0.0;
   for (int s = 0; s < used; ++s) {
     const double closeness = d_max > 0.0 ? 1.0 - std::sqrt(nearest.squared[s]) / d_max : 0.0;
@@ -87,8 +85,8 @@ void write_weights(const Nearest& nearest, int k, Index* indices, double* weight
 }
 
 /// point_sides: one list a cut over the points.
-Influences influences_of(const Points& nodes, const std::vector<CutSides>& node_sides, int k,
-                         const Points& points, const std::vector<CutSides>& point_sides) {
+Influences influences_of(const Points& nodes, const std::vector<CutSides>& node_sides, int k, const Points& points,
+                         const std::vector<CutSides>& point_sides) {
   const PointCloud cloud{nodes};
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
   const std::size_t all = static_cast<std::size_t>(nodes.cols());
@@ -168,9 +166,8 @@ std::vector<CutSides> sides_by_nearest(const Shape& shape, const std::vector<Cut
 }  // namespace
 
 Result<Points> place_nodes(const Shape& shape, const EmbeddedGraphOptions& options) {
-  const Index count = options.node_count > 0
-                          ? options.node_count
-                          : std::min<Index>(250, static_cast<Index>(shape.points().cols()));
+  const Index count =
+      options.node_count > 0 ? options.node_count : std::min<Index>(250, static_cast<Index>(shape.points().cols()));
   switch (options.sampling) {
     case NodeSampling::nodes:
       return options.nodes;
@@ -185,16 +182,13 @@ Result<Points> place_nodes(const Shape& shape, const EmbeddedGraphOptions& optio
   return options.nodes;
 }
 
-DeformationGraph build_graph(const Shape& shape, Points nodes,
-                             const EmbeddedGraphOptions& options) {
+DeformationGraph build_graph(const Shape& shape, Points nodes, const EmbeddedGraphOptions& options) {
   DeformationGraph graph;
   graph.nodes = std::move(nodes);
-  const int k =
-      options.neighbours > 0 ? options.neighbours : std::min<int>(kDefaultNeighbours, graph.size());
+  const int k = options.neighbours > 0 ? options.neighbours : std::min<int>(kDefaultNeighbours, graph.size());
   for (const Cut& cut : options.cuts) graph.point_sides.push_back(point_sides_of(shape, cut));
   graph.node_sides = sides_by_nearest(shape, graph.point_sides, graph.nodes);
-  graph.influences =
-      influences_of(graph.nodes, graph.node_sides, k, shape.points(), graph.point_sides);
+  graph.influences = influences_of(graph.nodes, graph.node_sides, k, shape.points(), graph.point_sides);
   graph.edges = edges_of(graph.influences, graph.size());
   graph.elimination_order = fill_reducing_order(graph.size(), graph.edges);
   graph.length_unit = mean_edge_length(graph.nodes, graph.edges, shape.diagonal());
@@ -202,8 +196,7 @@ DeformationGraph build_graph(const Shape& shape, Points nodes,
   return graph;
 }
 
-Influences compute_influences(const Shape& shape, const DeformationGraph& graph,
-                              const Points& points) {
+Influences compute_influences(const Shape& shape, const DeformationGraph& graph, const Points& points) {
   return influences_of(graph.nodes, graph.node_sides, graph.influences.k, points,
                        sides_by_nearest(shape, graph.point_sides, points));
 }

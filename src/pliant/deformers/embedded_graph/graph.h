@@ -24,11 +24,11 @@ struct Influences {
 using CutSides = std::vector<unsigned char>;
 
 struct DeformationGraph {
-  Points nodes;                          ///< g_j, 3 x m, input coordinates
-  Influences influences;                 ///< of the points of the shape
-  std::vector<Edge> edges;               ///< nodes that influence a common point, j < k, sorted
-  std::vector<Index> elimination_order;  ///< of the nodes, for the solver's factorisations
-  double length_unit = 1.0;              ///< mean edge length: the energies are taken in this unit
+  Points nodes;                                      ///< g_j, 3 x m, input coordinates
+  Influences influences;                             ///< of the points of the shape
+  std::vector<Edge> edges;                           ///< nodes that influence a common point, j < k, sorted
+  std::vector<Index> elimination_order;              ///< of the nodes, for the solver's factorisations
+  double length_unit = 1.0;                          ///< mean edge length: the energies are taken in this unit
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of the scene, for accuracy only
   std::vector<CutSides> node_sides;                  ///< one list a cut
   std::vector<CutSides> point_sides;                 ///< of the points of the shape, one list a cut
@@ -46,7 +46,6 @@ DeformationGraph build_graph(const Shape& shape, Points nodes, const EmbeddedGra
 
 /// Influences of a graph on any other points (3 x q); across its cuts a point is on the side of the
 /// nearest point of the shape.
-Influences compute_influences(const Shape& shape, const DeformationGraph& graph,
-                              const Points& points);
+Influences compute_influences(const Shape& shape, const DeformationGraph& graph, const Points& points);
 
 }  // namespace pliant

@@ -10,22 +10,21 @@ Status invalid(std::string message) { return {ErrorCode::invalid_option, std::mo
 
 Status check_weight(const char* name, double value, bool zero_allowed) {
   if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return {};
-  return invalid(std::string(name) + " is " + std::to_string(value) +
-                 "; expected a finite number " + (zero_allowed ? "of at least 0" : "above 0"));
+  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected a finite number " +
+                 (zero_allowed ? "of at least 0" : "above 0"));
 }
 
 Status check_count(const char* name, Index value, Index most, const char* of_what) {
   if (value >= 1 && value <= most) return {};
-  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected 1 to " +
-                 std::to_string(most) + ", the number of " + of_what);
+  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected 1 to " + std::to_string(most) +
+                 ", the number of " + of_what);
 }
 
 Status check_cut(const Cut& cut, const Shape& shape) {
   std::vector<unsigned char> side(shape.points().cols(), 0);
   for (const auto* list : {&cut.a, &cut.b}) {
     const unsigned char mark = list == &cut.a ? 1 : 2;
-    if (list->empty())
-      return invalid("cuts holds an empty selection; expected two sets of vertices");
+    if (list->empty()) return invalid("cuts holds an empty selection; expected two sets of vertices");
     for (Index vertex : *list) {
       if (vertex < 0 || vertex >= shape.input_size()) {
         return invalid("cuts holds vertex " + std::to_string(vertex) + "; expected 0 to " +
@@ -53,23 +52,18 @@ Status EmbeddedGraphOptions::validate(const Shape& shape) const {
     if (!nodes.allFinite()) return invalid("nodes holds a number that is not finite");
     available = static_cast<Index>(nodes.cols());
   } else if (node_count != 0) {
-    if (Status s = check_count("nodeCount", node_count, points, "points of the shape"); !s.ok())
-      return s;
+    if (Status s = check_count("nodeCount", node_count, points, "points of the shape"); !s.ok()) return s;
     available = node_count;
   }
   if (sampling == NodeSampling::simplify && shape.triangles().cols() == 0) {
-    return invalid(
-        "sampling is \"simplify\", but the shape has no triangles; expected \"surface\"");
+    return invalid("sampling is \"simplify\", but the shape has no triangles; expected \"surface\"");
   }
   if (neighbours != 0) {
-    const Index most = node_count == 0 && sampling != NodeSampling::nodes
-                           ? std::min<Index>(250, points)
-                           : available;
+    const Index most = node_count == 0 && sampling != NodeSampling::nodes ? std::min<Index>(250, points) : available;
     if (Status s = check_count("neighbours", neighbours, most, "nodes"); !s.ok()) return s;
   }
   if (Status s = check_weight("rotationWeight", rotation_weight, false); !s.ok()) return s;
-  if (Status s = check_weight("regularizationWeight", regularization_weight, false); !s.ok())
-    return s;
+  if (Status s = check_weight("regularizationWeight", regularization_weight, false); !s.ok()) return s;
   if (Status s = check_weight("constraintWeight", constraint_weight, false); !s.ok()) return s;
   for (const Cut& cut : cuts) {
     if (Status s = check_cut(cut, shape); !s.ok()) return s;

@@ -11,13 +11,10 @@ namespace pliant::embedded {
 using Pose = Eigen::Matrix<double, 12, Eigen::Dynamic>;
 
 inline Eigen::Matrix3d gradient_of(const Pose& pose, Index j) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(pose.col(j).data())
-      .leftCols<3>();
+  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(pose.col(j).data()).leftCols<3>();
 }
 
-inline Eigen::Vector3d translation_of(const Pose& pose, Index j) {
-  return {pose(3, j), pose(7, j), pose(11, j)};
-}
+inline Eigen::Vector3d translation_of(const Pose& pose, Index j) { return {pose(3, j), pose(7, j), pose(11, j)}; }
 
 /// Derivative of the determinant, d det(R) = <cofactors, dR>, and det(R) times the inverse
 /// transpose.

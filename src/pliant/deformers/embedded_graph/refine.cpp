@@ -36,8 +36,7 @@ std::vector<bool> strained_nodes(const GraphSolver& solver) {
 
 }  // namespace
 
-Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const GraphSolver& solver,
-                    Index max_nodes) {
+Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const GraphSolver& solver, Index max_nodes) {
   const std::vector<bool> strained = strained_nodes(solver);
   std::vector<Index> candidates;
   std::vector<double> distance;  // squared, to the nearest node so far
@@ -56,8 +55,7 @@ Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const Gra
     const Index point = candidates[farthest - distance.begin()];
     chosen.push_back(point);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const double d =
-          (shape.points().col(candidates[i]) - shape.points().col(point)).squaredNorm();
+      const double d = (shape.points().col(candidates[i]) - shape.points().col(point)).squaredNorm();
       distance[i] = std::min(distance[i], d);
     }
   }
@@ -85,8 +83,7 @@ Pose inherited_pose(const Shape& shape, const DeformationGraph& old_graph, const
     }
     const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + u;
     if (r.determinant() < kLeastDeterminant) u = closest_rotation(r) - Eigen::Matrix3d::Identity();
-    for (int a = 0; a < 3; ++a)
-      pose.col(kept + i).segment<4>(4 * a) << u(a, 0), u(a, 1), u(a, 2), t[a];
+    for (int a = 0; a < 3; ++a) pose.col(kept + i).segment<4>(4 * a) << u(a, 0), u(a, 1), u(a, 2), t[a];
   }
   for (int a = 0; a < 3; ++a) pose.row(4 * a + 3) *= rescale;
   return pose;

@@ -9,8 +9,7 @@ namespace pliant::embedded {
 
 /// Points of the shape to become nodes, 3 x at most max_nodes: near nodes whose energy stands out,
 /// each in turn the farthest from all nodes so far.
-Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const GraphSolver& solver,
-                    Index max_nodes);
+Points nodes_to_add(const Shape& shape, const DeformationGraph& graph, const GraphSolver& solver, Index max_nodes);
 
 /// The pose of a refined graph: its first nodes keep theirs, the others take the blended motion of
 /// the old graph at their place.

@@ -30,9 +30,8 @@ constexpr std::size_t kEnoughForTurn = 250;
 
 }  // namespace
 
-Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen,
-                           Points constrained, const Influences& influences,
-                           const SolverOptions& options, const Pose& pose) {
+Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, Points constrained,
+                           const Influences& influences, const SolverOptions& options, const Pose& pose) {
   options_ = options;
   Weights weights = options.weights;
   if (options.exact) weights.constraint *= kExactStiffness;
@@ -48,8 +47,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   x_.resize(3 * energy_.rows());
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
     for (int a = 0; a < 3; ++a) {
-      for (int c = 0; c < 4; ++c)
-        energy_.entry(x_, a, j)[c] = pose(4 * a + c, energy_.node_of_free()[j]);
+      for (int c = 0; c < 4; ++c) energy_.entry(x_, a, j)[c] = pose(4 * a + c, energy_.node_of_free()[j]);
     }
   }
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
@@ -117,9 +115,8 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
   energy_.constraints().set_targets(displacement_);
   energy_.evaluate(x_);
   if (energy_.free_nodes() == 0) return;
-  const bool beyond_half_turn = std::any_of(turns.begin(), turns.end(), [](const Turn& t) {
-    return t.rotation.norm() > std::numbers::pi;
-  });
+  const bool beyond_half_turn =
+      std::any_of(turns.begin(), turns.end(), [](const Turn& t) { return t.rotation.norm() > std::numbers::pi; });
   if (!beyond_half_turn) predict_rigid();
   predict_turns(turns, beyond_half_turn);
   update_gradient();
@@ -148,14 +145,12 @@ RigidMotion GraphSolver::motion_of(const std::vector<Index>& constraints, std::s
 
 void GraphSolver::predict_rigid() {
   // A component that nothing holds follows the best rigid motion of its handles at no cost.
-  std::vector<std::vector<Index>> floating(
-      components_.count);  // constraints of components that float
+  std::vector<std::vector<Index>> floating(components_.count);  // constraints of components that float
   for (Index l = 0; l < constrained_.cols(); ++l) {
     const Index c = constraint_component_[l];
     if (c >= 0 && !anchored_[c]) floating[c].push_back(l);
   }
-  if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); }))
-    return;
+  if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); })) return;
   previous_ = x_;
   const double before = energy_.total();
   for (Index c = 0; c < components_.count; ++c) {
@@ -193,9 +188,8 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
   double largest = 0.0;
   for (const Turn& turn : turns) {
     // Where no turn is told beyond what the points show, the points know better: the shape may lag.
-    rotations.push_back(
-        as_told ? turn.rotation
-                : rotation_vector_of(motion_of(turn.constraints, kEnoughForTurn).rotation));
+    rotations.push_back(as_told ? turn.rotation
+                                : rotation_vector_of(motion_of(turn.constraints, kEnoughForTurn).rotation));
     largest = std::max(largest, rotations.back().norm());
   }
   if (largest < kSmallTurn) return;
@@ -208,8 +202,7 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
     energy_.constraints().add_common(turns[t].constraints, rotations[t], direction_);
   direction_ *= options_.weights.constraint;
   metric_factor_.solve(direction_.data(), 3);
-  for (Index j = 0; j < energy_.free_nodes(); ++j)
-    turn_node(j, rotation_of(energy_.translation(direction_, j)));
+  for (Index j = 0; j < energy_.free_nodes(); ++j) turn_node(j, rotation_of(energy_.translation(direction_, j)));
   direction_ = x_ - previous_;
   energy_.along(previous_, direction_);
   energy_.advance(1.0, x_);
@@ -245,8 +238,7 @@ Status GraphSolver::find_direction() {
     const Eigen::Matrix3d r = affine_part(j);
     const double curvature = barrier::curvature(r.determinant());
     if (curvature == 0.0) continue;
-    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> g =
-        Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Zero();
+    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> g = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Zero();
     g.leftCols<3>() = cofactors(r);
     const Eigen::Map<const Eigen::Matrix<double, 12, 1>> gradient(g.data());
     block += 0.5 * options_.weights.rotation * curvature * gradient * gradient.transpose();
@@ -269,8 +261,7 @@ Status GraphSolver::find_direction() {
 
 double GraphSolver::barrier() const {
   double sum = 0.0;
-  for (Index j = 0; j < energy_.free_nodes(); ++j)
-    sum += barrier::value(affine_part(j).determinant());
+  for (Index j = 0; j < energy_.free_nodes(); ++j) sum += barrier::value(affine_part(j).determinant());
   return options_.weights.rotation * sum;
 }
 
@@ -293,12 +284,9 @@ double GraphSolver::choose_step(const Quartic& course, double slope) {
   double barrier_before = 0.0;
   near_barrier_.clear();
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
-    const barrier::DeterminantAlong along(affine_part(j),
-                                          energy_.displacement_gradient(direction_, j));
+    const barrier::DeterminantAlong along(affine_part(j), energy_.displacement_gradient(direction_, j));
     while (alpha > 0.0 && along.at(alpha) < 0.2 * std::min(1.0, along.at_start())) alpha *= 0.7;
-    if (along.at_start() >= barrier::kSafeDeterminant &&
-        along.at(alpha) >= barrier::kSafeDeterminant)
-      continue;
+    if (along.at_start() >= barrier::kSafeDeterminant && along.at(alpha) >= barrier::kSafeDeterminant) continue;
     near_barrier_.push_back(along);
     barrier_before += options_.weights.rotation * barrier::value(along.at_start());
   }
@@ -357,8 +345,7 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
 bool GraphSolver::tighten() {
   // Method of multipliers: what is missing from a target is added to it. True while that helps.
   if (!options_.exact || displacement_.cols() == 0) return false;
-  const double violation =
-      (energy_.constraints().residuals(x_) + shift_).colwise().norm().maxCoeff();
+  const double violation = (energy_.constraints().residuals(x_) + shift_).colwise().norm().maxCoeff();
   const bool met = violation <= 1e-10 * extent_;
   const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
   if (met || stuck) return false;
@@ -372,16 +359,14 @@ bool GraphSolver::tighten() {
 
 Terms GraphSolver::terms() const {
   Terms terms = energy_.terms();
-  if (options_.exact)
-    terms.constraint = (energy_.constraints().residuals(x_) + shift_).squaredNorm();
+  if (options_.exact) terms.constraint = (energy_.constraints().residuals(x_) + shift_).squaredNorm();
   return terms;
 }
 
 void GraphSolver::store(Pose& pose) const {
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
     for (int a = 0; a < 3; ++a) {
-      for (int c = 0; c < 4; ++c)
-        pose(4 * a + c, energy_.node_of_free()[j]) = energy_.entry(x_, a, j)[c];
+      for (int c = 0; c < 4; ++c) pose(4 * a + c, energy_.node_of_free()[j]) = energy_.entry(x_, a, j)[c];
     }
   }
 }

@@ -13,7 +13,7 @@ Eigen::Matrix<double, 12, 1> pack_map(const Eigen::Matrix3d& a, const Eigen::Vec
 
 /// out_i = p_i + sum over the influences of w (A (p_i - origin) + b), for 3 x n points: maps are in
 /// displacements, so that points at rest come out bit for bit.
-void carry(const PackedMaps& maps, const Influences& influences, const Points& points,
-           const Eigen::Vector3d& origin, Points& out);
+void carry(const PackedMaps& maps, const Influences& influences, const Points& points, const Eigen::Vector3d& origin,
+           Points& out);
 
 }  // namespace pliant::embedded

@@ -4,9 +4,9 @@
 
 import { type Accessor, Document, Logger, type mat4, type Node, Primitive, WebIO } from "@gltf-transform/core";
 import { ALL_EXTENSIONS } from "@gltf-transform/extensions";
-import { PliantError } from "../errors.js";
-import { NormalGroups } from "../normals.js";
-import type { Mesh } from "./io.js";
+import { PliantError } from "../boundary/errors.js";
+import { NormalGroups } from "../shape/normals.js";
+import type { Mesh } from "./files.js";
 import { triangleCorners } from "./refined.js";
 import { applyInverse, applyTo, directionBack, directionOut } from "./matrix.js";
 

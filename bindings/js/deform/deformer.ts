@@ -1,13 +1,13 @@
 // Deformers: a shape, constraints on it, and a method that finds the deformation.
 
-import { coordinates, fields, type FloatArray, integer, output, Place, positive, toSpace, vertexIds } from "./check.js";
-import { accept, build, type Core, disposeSymbol, Owned } from "./core.js";
-import { PliantError } from "./errors.js";
+import { coordinates, fields, type FloatArray, integer, output, Place, positive, toSpace, vertexIds } from "../boundary/check.js";
+import { accept, build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
+import { PliantError } from "../boundary/errors.js";
 import { Handle } from "./handle.js";
-import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "./methods/index.js";
-import type { RawDeformer } from "./raw.js";
-import { extentOf, type Shape, shapeFor } from "./shape.js";
-import { readTables, type State, toState, writeTables } from "./state.js";
+import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "../methods/index.js";
+import type { RawDeformer } from "../boundary/raw.js";
+import { extentOf, type Shape, shapeFor } from "../shape/shape.js";
+import { readTables, type State, toState, writeTables } from "../boundary/state.js";
 
 /** What one iteration did. */
 export interface Step {

@@ -1,15 +1,15 @@
 // Runs an edit script over a shape, step by step, and reports what came of it.
 
-import type { FloatArray, Place } from "../check.js";
-import type { Core } from "../core.js";
-import { Deformer, type Step, throwIfAborted } from "../deformer.js";
-import { PliantError } from "../errors.js";
-import type { Handle } from "../handle.js";
-import { measure } from "../quality.js";
-import { selectedIds } from "../selection.js";
-import { insideOf, Shape } from "../shape.js";
-import type { Refinement, Sketch } from "../sketch.js";
-import type { HandleState, State } from "../state.js";
+import type { FloatArray, Place } from "../boundary/check.js";
+import type { Core } from "../boundary/core.js";
+import { Deformer, type Step, throwIfAborted } from "../deform/deformer.js";
+import { PliantError } from "../boundary/errors.js";
+import type { Handle } from "../deform/handle.js";
+import { measure } from "../shape/quality.js";
+import { selectedIds } from "../shape/selection.js";
+import { insideOf, Shape } from "../shape/shape.js";
+import type { Refinement, Sketch } from "../deform/sketch.js";
+import type { HandleState, State } from "../boundary/state.js";
 import { extended, extendedLabels, grown, rows } from "./growth.js";
 import { framesOf } from "./keyframes.js";
 import { locatedAsync } from "./located.js";

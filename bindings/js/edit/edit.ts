@@ -1,7 +1,7 @@
 // `pliant.edit`, loaded when it is first called.
 
-import type { Core } from "../core.js";
-import { extentOf, type Shape } from "../shape.js";
+import type { Core } from "../boundary/core.js";
+import { extentOf, type Shape } from "../shape/shape.js";
 import { readScript } from "./read.js";
 import { runScript } from "./run.js";
 import type { EditOptions, EditResult, EditScript } from "./types.js";

@@ -1,7 +1,7 @@
 // Quality measures of a deformation, one meaning everywhere (contract, section 2: `compare`).
 
-import { coordinates, fields, flag, Place, toSpace } from "./check.js";
-import type { Core } from "./core.js";
+import { coordinates, fields, flag, Place, toSpace } from "../boundary/check.js";
+import type { Core } from "../boundary/core.js";
 import { insideOf, type Shape, shapeFor } from "./shape.js";
 
 export interface Quality {

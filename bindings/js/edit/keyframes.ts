@@ -1,8 +1,8 @@
 // Keyframes: the same steps at several times. What lies between is an ordinary edit whose moves are
 // interpolated by their numbers: degrees turn, positions shift, sizes scale.
 
-import { list, type Place } from "../check.js";
-import type { Transform } from "../transform.js";
+import { list, type Place } from "../boundary/check.js";
+import type { Transform } from "../shape/transform.js";
 import type { Goal, Keyframe, ScriptPlan, SolverPlan, StepPlan } from "./read.js";
 import { poseKeys, type SketchPlan } from "./sketch_read.js";
 

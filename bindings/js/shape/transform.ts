@@ -1,6 +1,6 @@
 // TRANSFORM of the edit script: how a handle moves from its rest position.
 
-import { direction, fields, finite, type Place, positive, toSpace, vector } from "./check.js";
+import { direction, fields, finite, type Place, positive, toSpace, vector } from "../boundary/check.js";
 
 /** Applied in this order: scale about the centroid of the handle, rotate, translate; or a matrix. */
 export interface Transform {

@@ -1,13 +1,13 @@
 // The edit script as callers write it, and what comes of it (contract, section 3).
 
-import type { FloatArray } from "../check.js";
+import type { FloatArray } from "../boundary/check.js";
 import type { LiveOptions, MethodName, MethodOptions } from "../methods/index.js";
-import type { Quality } from "../quality.js";
-import type { Selection } from "../selection.js";
-import type { ShapeReport } from "../shape.js";
-import type { Camera, Mirror, Profile, Refinement, Stroke } from "../sketch.js";
-import type { State } from "../state.js";
-import type { Transform } from "../transform.js";
+import type { Quality } from "../shape/quality.js";
+import type { Selection } from "../shape/selection.js";
+import type { ShapeReport } from "../shape/shape.js";
+import type { Camera, Mirror, Profile, Refinement, Stroke } from "../deform/sketch.js";
+import type { State } from "../boundary/state.js";
+import type { Transform } from "../shape/transform.js";
 
 export interface EditScript {
   format: "pliant-edit";

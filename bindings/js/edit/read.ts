@@ -1,9 +1,9 @@
 // Reads an edit script: every key and value is checked, and an error names its place in the script.
 
-import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../check.js";
+import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../boundary/check.js";
 import { type DeformerOptions, type LiveOptions, type Method, type Options, readLive, readMethod, readSeed } from "../methods/index.js";
-import { type Extent, readSelection, type Select } from "../selection.js";
-import { readTransform, type Transform } from "../transform.js";
+import { type Extent, readSelection, type Select } from "../shape/selection.js";
+import { readTransform, type Transform } from "../shape/transform.js";
 import { sameExceptGoals } from "./keyframes.js";
 import { readSketchStep, type SketchPlan } from "./sketch_read.js";
 import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";

@@ -2,7 +2,7 @@
 
 import {
   type Fields, fields, filled, finite, direction, notNegative, type Place, vector, vertexIds,
-} from "./check.js";
+} from "../boundary/check.js";
 
 /** Vertices of a shape, by id or by where they are at rest (bounds included). */
 export type Selection =

@@ -1,11 +1,11 @@
 // Handles: sets of vertices that are moved.
 
-import { coordinates, Place, toSpace } from "./check.js";
-import type { Owned } from "./core.js";
-import { PliantError } from "./errors.js";
-import type { RawDeformer, RawScratch, RawStatus } from "./raw.js";
-import { insideOf, type Shape } from "./shape.js";
-import { applyMatrix, packMotion, readTransform, type Transform } from "./transform.js";
+import { coordinates, Place, toSpace } from "../boundary/check.js";
+import type { Owned } from "../boundary/core.js";
+import { PliantError } from "../boundary/errors.js";
+import type { RawDeformer, RawScratch, RawStatus } from "../boundary/raw.js";
+import { insideOf, type Shape } from "../shape/shape.js";
+import { applyMatrix, packMotion, readTransform, type Transform } from "../shape/transform.js";
 
 /** Made by `deformer.addHandle`. */
 export class Handle {

@@ -1,10 +1,10 @@
 // Reads the sketch steps of a script.
 
-import { fields, type Fields, finite, fraction, integer, notNegative, type Place } from "../check.js";
+import { fields, type Fields, finite, fraction, integer, notNegative, type Place } from "../boundary/check.js";
 import { type DeformerOptions, readMethod } from "../methods/index.js";
-import type { Extent } from "../selection.js";
-import type { Camera, Profile, SketchOptions, Stroke } from "../sketch.js";
-import { Packed, readDrawing } from "../sketch_input.js";
+import type { Extent } from "../shape/selection.js";
+import type { Camera, Profile, SketchOptions, Stroke } from "../deform/sketch.js";
+import { Packed, readDrawing } from "../deform/sketch_input.js";
 import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";
 
 /** How a limb is posed. */

@@ -1,6 +1,6 @@
 // What the refinements of a script have added to its shape, one after the other.
 
-import type { Refinement } from "../sketch.js";
+import type { Refinement } from "../deform/sketch.js";
 
 /** A refinement of what `growth` made of the input, as one of the input. */
 export function grown(growth: Refinement | undefined, next: Refinement): Refinement {

@@ -1,9 +1,9 @@
 // Runs the sketch steps of a script.
 
-import type { Core } from "../core.js";
-import { Deformer } from "../deformer.js";
-import type { Shape } from "../shape.js";
-import { Sketch, type SketchPose } from "../sketch.js";
+import type { Core } from "../boundary/core.js";
+import { Deformer } from "../deform/deformer.js";
+import type { Shape } from "../shape/shape.js";
+import { Sketch, type SketchPose } from "../deform/sketch.js";
 import { located } from "./located.js";
 import type { FinishPlan, PosePlan, SketchPlan } from "./sketch_read.js";
 import type { StepReport } from "./types.js";

@@ -1,7 +1,7 @@
 // Errors that a script's values bring out in the library, as errors of the script.
 
-import type { Place } from "../check.js";
-import { PliantError } from "../errors.js";
+import type { Place } from "../boundary/check.js";
+import { PliantError } from "../boundary/errors.js";
 
 const ofValues = ["invalid-option", "invalid-handle", "invalid-shape"];
 

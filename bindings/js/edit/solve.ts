@@ -1,8 +1,8 @@
 // What a step of a script, and the finish of a sketch, solve with and how long.
 
-import { fields, integer, type Place, positive } from "../check.js";
+import { fields, integer, type Place, positive } from "../boundary/check.js";
 import { type DeformerOptions, type Method, readOptions } from "../methods/index.js";
-import type { Extent } from "../selection.js";
+import type { Extent } from "../shape/selection.js";
 
 export interface SolvePlan {
   iterations: number;

@@ -1,9 +1,9 @@
 // Shapes: the checked door for all input.
 
-import { coordinates, fields, integer, list, Place } from "./check.js";
-import { build, type Core, disposeSymbol, Owned } from "./core.js";
-import { PliantError } from "./errors.js";
-import type { RawShape } from "./raw.js";
+import { coordinates, fields, integer, list, Place } from "../boundary/check.js";
+import { build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
+import { PliantError } from "../boundary/errors.js";
+import type { RawShape } from "../boundary/raw.js";
 import { type Extent, readSelection, selectedIds, type Selection } from "./selection.js";
 
 /** A mesh, a polygon soup, points, or a picture in the plane. */

@@ -1,6 +1,6 @@
 // What a sketch is made from, as callers write it, and how it is packed for the WASM side.
 
-import { type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "./check.js";
+import { type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
 
 /** The contract's CAMERA. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
 export interface Camera {

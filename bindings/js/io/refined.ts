@@ -1,8 +1,8 @@
 // The polygons of a file after refinement: those that were split become triangles, the others stay.
 
-import { extended } from "../script/growth.js";
-import type { Refinement } from "../sketch.js";
-import type { Mesh } from "./io.js";
+import { extended } from "../edit/growth.js";
+import type { Refinement } from "../deform/sketch.js";
+import type { Mesh } from "./files.js";
 
 /** The mesh at rest with a refinement's vertices. Texture coordinates of a new corner are those in the middle of its parents' in the same triangle. */
 export function refinedMesh(mesh: Mesh, refinement: Refinement): Mesh {

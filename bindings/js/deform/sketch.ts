@@ -1,11 +1,11 @@
 // Editing by two strokes: one over a limb, a second where it should go.
 
-import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, output, Place } from "./check.js";
-import { build, type Core, disposeSymbol, Owned } from "./core.js";
-import type { RawScratch, RawSketch, RawStatus } from "./raw.js";
-import { insideOf, type Shape, shapeFor } from "./shape.js";
+import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, output, Place } from "../boundary/check.js";
+import { build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
+import type { RawScratch, RawSketch, RawStatus } from "../boundary/raw.js";
+import { insideOf, type Shape, shapeFor } from "../shape/shape.js";
 import { type Camera, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
-import { readTables, toState } from "./state.js";
+import { readTables, toState } from "../boundary/state.js";
 
 export type { Camera, Mirror, Profile, SketchPose, Stroke };
 

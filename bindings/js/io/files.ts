@@ -2,9 +2,9 @@
 
 import { readFile } from "node:fs/promises";
 import createModule from "#wasm/pliant-io.mjs";
-import { accept, put } from "../core.js";
-import type { RawDocument, RawIoModule, RawRewriter, RawScratch } from "../raw.js";
-import { instantiate } from "../wasm.js";
+import { accept, put } from "../boundary/core.js";
+import type { RawDocument, RawIoModule, RawRewriter, RawScratch } from "../boundary/raw.js";
+import { instantiate } from "../boundary/wasm.js";
 
 let started: Promise<RawIoModule> | undefined;
 
