@@ -1,16 +1,17 @@
 // pliant/worker: the same calls as promises, run in a Web Worker (in Node: a worker thread).
 
 import { fields, flag, Place } from "./boundary/check.js";
+import { PliantError } from "./boundary/errors.js";
 import type { InitOptions } from "./boundary/wasm.js";
 import { absolute, nodeModule, readInitOptions } from "./boundary/wasm.js";
 import { Line } from "./worker/line.js";
 import { WorkerPliant } from "./worker/objects.js";
+import type { Reference } from "./worker/protocol.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 
-export { WorkerDeformer, WorkerHandle, WorkerPliant, WorkerShape } from "./worker/objects.js";
-export { WorkerSketch } from "./worker/sketch.js";
+export { WorkerDeformer, WorkerHandle, WorkerPliant, WorkerShape, WorkerSketch } from "./worker/objects.js";
 export type * from "./public.js";
-export { PliantError } from "./boundary/errors.js";
+export { PliantError };
 
 export interface WorkerInitOptions extends InitOptions {
   /**
@@ -39,12 +40,12 @@ async function start(inline: boolean, source: InitOptions): Promise<WorkerPliant
   const wasm = await travelling(source, inline);
   const line = new Line(await launch(inline), () => (current = undefined));
   try {
-    await line.call(0, "init", [wasm]);
+    const reference = await line.call<Reference>({ target: 0, method: "init", args: [wasm] });
+    return new WorkerPliant(line, reference);
   } catch (error) {
-    line.close("the worker did not start");
+    line.close(new PliantError("disposed", "the worker did not start"));
     throw error;
   }
-  return new WorkerPliant(line, { object: 0 });
 }
 
 /** The source of the WASM in a form that a worker, which may have no address of its own, can use. */

@@ -1,6 +1,7 @@
 // pliant/worker: the same calls as promises, from files of the package and from inside the script.
 
 import { execFileSync } from "node:child_process";
+import { Worker } from "node:worker_threads";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { consumer, entries, errorOf, pliant } from "./support/package.js";
 import { sheet, where } from "./support/shapes.js";
@@ -65,6 +66,46 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     expect(positions).toHaveLength(mesh.positions.length);
   });
 
+  it("takes arguments as they were at the call, and no object that was not made there", async () => {
+    const library = await start();
+    const shape = await library.shape(mesh);
+    const deformer = await library.deformer(shape, options);
+    const hand = await deformer.addHandle([0]);
+    const target = Float64Array.of(0, 0, 0.25);
+    const moved = hand.moveTo(target);
+    target[2] = 9;
+    await moved;
+    expect(target).toHaveLength(3);
+    expect((await deformer.state()).handles[0].targets[0][2]).toBeCloseTo(0.25, 12);
+    expect((await errorOf(() => library.deformer({ object: 1 } as never, options))).code).toBe("invalid-option");
+  });
+
+  it("knows its handles", async () => {
+    const deformer = await (await start()).deformer(await (await start()).shape(mesh), options);
+    expect(deformer.handles).toEqual([]);
+    const [a, b] = await Promise.all([deformer.addHandle(left), deformer.addHandle(right)]);
+    expect(deformer.handles).toEqual([a, b]);
+    await a.remove();
+    expect(deformer.handles).toEqual([b]);
+    expect((await errorOf(() => deformer.addHandle([right[0]]))).code).toBe("invalid-handle");
+    expect(deformer.handles).toEqual([b]);
+  });
+
+  it("takes one message each way for a frame, and moves its arrays", async () => {
+    const library = await start();
+    const deformer = await library.deformer(await library.shape(mesh), options);
+    await (await deformer.addHandle(right)).move({ translate: [0, 0, 0.3] });
+    const [hand] = deformer.handles;
+    const target = Float64Array.from(right.flatMap(() => [0, 0, 1]));
+    const { messages, value } = await overheard(() =>
+      Promise.all([hand.moveTo(target), deformer.step(), deformer.positions(), deformer.normals()]));
+    expect(messages).toEqual(["to the worker", "to the page"]);
+    const [, step, positions, normals] = value;
+    expect(step.accepted).toBe(true);
+    expect([positions.length, normals.length]).toEqual([mesh.positions.length, mesh.positions.length]);
+    expect(target).toHaveLength(3 * right.length);
+  });
+
   it("runs edit scripts, with progress and abort", async () => {
     const library = await start();
     const shape = await library.shape(mesh);
@@ -89,8 +130,8 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     const controller = new AbortController();
     const solving = errorOf(() => deformer.solve({ signal: controller.signal, tolerance: 1e-14, maxIterations: 1_000_000 }));
     await deformer.counters();
-    controller.abort();
-    expect((await solving).code).toBe("aborted");
+    controller.abort(new RangeError("changed my mind"));
+    expect(await solving).toMatchObject({ code: "aborted", cause: new RangeError("changed my mind") });
     expect((await deformer.step()).energy).toBeGreaterThan(0);
     const handles = [{ select: { vertices: [0] } }, { select: { vertices: [10200] }, move: { translate: [0, 0, 0.5] } }];
     const script = { format: "pliant-edit", version: 1, steps: [{ method: "embedded-graph", options: { nodeCount: 400, solver: "gauss-newton" }, handles, solve: { tolerance: 1e-14 } }] };
@@ -137,6 +178,26 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     expect((await next.shape(mesh)).report.vertices).toBe(225);
   });
 });
+
+/** What an action sends to workers and gets from them. */
+async function overheard<T>(action: () => Promise<T>): Promise<{ messages: string[]; value: T }> {
+  const messages: string[] = [];
+  const { postMessage, emit } = Worker.prototype;
+  Worker.prototype.postMessage = function (...args) {
+    messages.push("to the worker");
+    return postMessage.apply(this, args);
+  };
+  Worker.prototype.emit = function (this: Worker, ...args: unknown[]) {
+    if (args[0] === "message") messages.push("to the page");
+    return emit.apply(this, args as never);
+  } as never;
+  try {
+    return { messages, value: await action() };
+  } finally {
+    Worker.prototype.postMessage = postMessage;
+    Worker.prototype.emit = emit;
+  }
+}
 
 describe("pliant/worker", () => {
   it("does not keep Node alive when idle", () => {

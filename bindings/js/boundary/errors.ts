@@ -10,6 +10,7 @@ export type ErrorCode =
   | "not-solvable"
   | "too-large"
   | "disposed"
+  | "crashed"
   | "aborted";
 
 /** Everything Pliant throws. The message names the argument, its value and what was expected. */

@@ -1,27 +1,22 @@
 // The worker's side of pliant/worker: runs the calls and answers. The page says which WASM to take.
 
 import { PliantError } from "../boundary/errors.js";
+import { nodeModule } from "../boundary/wasm.js";
 import { Deformer } from "../deform/deformer.js";
 import { Handle } from "../deform/handle.js";
+import { Sketch } from "../deform/sketch.js";
 import { makeInit } from "../init.js";
 import { Pliant } from "../pliant.js";
 import { Shape } from "../shape/shape.js";
-import { Sketch } from "../deform/sketch.js";
-import { nodeModule } from "../boundary/wasm.js";
-import { type Argument, type Call, type Fresh, type Port, provided, type Reference, type Reply, type Request } from "./protocol.js";
+import { buffersOf, type Call, packError, type Port, type Reference, type Reply, type Request } from "./protocol.js";
+import { type ClassName, rowOf } from "./surface.js";
 
 const init = makeInit(() => Promise.reject(new Error("none was named")));
 
-/** What a page may call. */
-const methods = new Map<Function, readonly string[]>([
-  [Pliant, ["shape", "deformer", "sketch", "measure", "edit"]],
-  [Shape, ["select", "dispose"]],
-  [Deformer, ["setFixed", "addHandle", "setOptions", "step", "solve", "energy", "counters", "positions", "normals",
-    "field", "transformPoints", "state", "restore", "reset", "dispose"]],
-  [Handle, ["move", "moveTo", "remove"]],
-  [Sketch, ["redraw", "bend", "unbend", "twist", "scale", "turning", "twistSpeed", "setSmooth", "morph", "pose", "setPose", "reset",
-    "refine", "unrefine", "labels", "parameters", "reference", "target", "positions", "restPositions", "normals", "seed", "state", "dispose"]],
-]);
+const classes = { Pliant, Shape, Deformer, Handle, Sketch } satisfies Record<ClassName, unknown>;
+const names = new Map<unknown, ClassName>(Object.entries(classes).map(([name, its]) => [its, name as ClassName]));
+
+type Method = (...args: unknown[]) => unknown;
 
 class Host {
   readonly #objects = new Map<number, object>();
@@ -30,74 +25,79 @@ class Host {
 
   constructor(readonly port: Port) {}
 
-  receive(request: Request): void {
-    if ("abort" in request) this.#running.get(request.abort)?.abort();
-    else if ("release" in request) this.#objects.delete(request.release);
-    else void this.#answer(request);
+  /** Answers that take their time follow by themselves; all others go back in one message. */
+  receive(requests: readonly Request[]): void {
+    const replies: Reply[] = [];
+    for (const request of requests) {
+      if ("abort" in request) this.#running.get(request.abort)?.abort();
+      else if ("release" in request) this.#objects.delete(request.release);
+      else {
+        const reply = this.#answer(request);
+        if (reply instanceof Promise) void reply.then((late) => this.#post([late]));
+        else replies.push(reply);
+      }
+    }
+    if (replies.length > 0) this.#post(replies);
   }
 
-  async #answer(call: Call): Promise<void> {
+  #answer(call: Call): Reply | Promise<Reply> {
+    const { id } = call;
+    const accepted = (value: unknown): Reply => ({ id, value: this.#refer(value) });
+    const refused = (error: unknown): Reply => ({ id, error: packError(error) });
     try {
-      const value = await this.#run(call);
-      this.#reply({ id: call.id, value: this.#encode(value) }, buffersOf(value));
+      const value = this.#run(call);
+      if (!(value instanceof Promise)) return accepted(value);
+      return value.then(accepted).catch(refused).finally(() => this.#running.delete(id));
     } catch (error) {
-      const code = error instanceof PliantError ? error.code : undefined;
-      this.#reply({ id: call.id, error: { code, message: error instanceof Error ? error.message : String(error) } });
-    } finally {
-      this.#running.delete(call.id);
+      return refused(error);
     }
   }
 
-  async #run({ id, target, method, args }: Call): Promise<unknown> {
-    if (method === "init") {
-      this.#objects.set(0, await init(args[0] as Parameters<typeof init>[0]));
-      return undefined;
-    }
+  #run(call: Call): unknown {
+    const { target, method, args } = call;
+    if (target === 0 && method === "init") return this.#start(args[0] as Parameters<typeof init>[0]);
     const object = this.#objects.get(target);
     if (!object) throw new PliantError("disposed", "the object is disposed; expected a live one");
-    if (!methods.get(object.constructor)?.includes(method)) throw new Error(`there is no method ${method}`);
-    const call = (object as Record<string, (...args: unknown[]) => unknown>)[method];
-    return call.apply(object, args.map((arg) => this.#decode(id, arg)));
+    const { calls } = rowOf(names.get(object.constructor)!);
+    if (!Object.hasOwn(calls, method)) throw new Error(`there is no method ${method}`);
+    return (object as Record<string, Method>)[method](...this.#arguments(call, calls[method].options));
   }
 
-  #decode(id: number, arg: unknown): unknown {
-    if (typeof arg !== "object" || arg === null) return arg;
-    if (Object.hasOwn(arg, "object")) return this.#objects.get((arg as Argument).object);
-    if (Object.hasOwn(arg, "doubles")) return new Float64Array((arg as Fresh).doubles);
-    const options: Record<string, unknown> = { ...arg };
-    if (options.onProgress !== provided && options.signal !== provided) return arg;
-    if (options.onProgress === provided) options.onProgress = (progress: unknown) => this.#reply({ id, progress });
-    if (options.signal === provided) {
+  async #start(options: Parameters<typeof init>[0]): Promise<Pliant> {
+    const pliant = await init(options);
+    this.#objects.set(0, pliant);
+    return pliant;
+  }
+
+  #arguments({ id, args, objects = [], local = [], doubles }: Call, options = 0): unknown[] {
+    for (const [argument, object] of objects) args[argument] = this.#objects.get(object);
+    if (doubles !== undefined) args.push(new Float64Array(doubles));
+    if (local.length === 0) return args;
+    const ours: Record<string, unknown> = {};
+    if (local.includes("onProgress")) ours.onProgress = (progress: unknown) => this.#post([{ id, progress }]);
+    if (local.includes("signal")) {
       const controller = new AbortController();
       this.#running.set(id, controller);
-      options.signal = controller.signal;
+      ours.signal = controller.signal;
     }
-    return options;
+    args[options] = { ...(args[options] as object), ...ours };
+    return args;
   }
 
-  #encode(value: unknown): unknown {
-    if (value instanceof Shape) {
-      const { report, dimension, diagonal } = value;
-      return this.#refer(value, { shape: { report, dimension, diagonal } });
-    }
-    if (value instanceof Deformer) return this.#refer(value, { method: value.method });
-    return value instanceof Handle || value instanceof Sketch ? this.#refer(value, {}) : value;
+  /** An object of the package stays here and gets a number. */
+  #refer(value: unknown): unknown {
+    const name = names.get((value as object | undefined)?.constructor);
+    if (!name) return value;
+    const object = value === this.#objects.get(0) ? 0 : ++this.#last;
+    this.#objects.set(object, value as object);
+    const constants = Object.fromEntries(rowOf(name).constants.map((key) => [key, (value as Record<string, unknown>)[key]]));
+    return { object, constants } satisfies Reference;
   }
 
-  #refer(object: object, about: Omit<Reference, "object">): Reference {
-    this.#objects.set(++this.#last, object);
-    return { object: this.#last, ...about };
+  #post(replies: Reply[]): void {
+    const values = replies.map((reply) => ("value" in reply ? reply.value : undefined));
+    this.port.post(replies, [...new Set(values.flatMap(buffersOf))]);
   }
-
-  #reply(reply: Reply, transfer: ArrayBuffer[] = []): void {
-    this.port.post(reply, transfer);
-  }
-}
-
-/** Result arrays move to the page instead of being copied. */
-function buffersOf(value: unknown): ArrayBuffer[] {
-  const arrays = ArrayBuffer.isView(value) ? [value] : Object.values((value ?? {}) as object).flat().filter(ArrayBuffer.isView);
-  return [...new Set(arrays.map((array) => array.buffer as ArrayBuffer))];
 }
 
 /** The line to the page. */
@@ -117,4 +117,4 @@ function port(): Port {
 
 const line = port();
 const host = new Host(line);
-line.listen((request: Request) => host.receive(request));
+line.listen((requests: Request[]) => host.receive(requests));

@@ -2,13 +2,7 @@
 
 import { PliantError } from "../boundary/errors.js";
 import type { WorkerPort } from "./ports.js";
-import { provided, type Reference, type Reply } from "./protocol.js";
-
-interface Pending {
-  resolve(value: never): void;
-  reject(error: Error): void;
-  onProgress: ((progress: never) => void) | undefined;
-}
+import { buffersOf, type Call, type Reply, type Request, unpackError } from "./protocol.js";
 
 /** Options that stay on this side. */
 export interface Local {
@@ -16,56 +10,73 @@ export interface Local {
   onProgress?: (progress: never) => void;
 }
 
+interface Pending extends Local {
+  resolve(value: never): void;
+  reject(error: Error): void;
+}
+
 export class Line {
   readonly #port: WorkerPort;
   readonly #pending = new Map<number, Pending>();
-  readonly #dropped = new FinalizationRegistry<number>((object) => this.#port.post({ release: object }, []));
+  readonly #dropped = new FinalizationRegistry<number>((object) => this.#post({ release: object }));
+  /** What goes with the next message: all that is asked before the page's code comes to rest. */
+  #waiting: Request[] = [];
   #last = 0;
   #closed: PliantError | undefined;
 
   /** `onClose` is told once, when the worker is of no use any more. */
   constructor(port: WorkerPort, readonly onClose: () => void) {
     this.#port = port;
-    port.listen((reply: Reply) => this.#receive(reply));
-    port.onFailure((reason) => this.close(`the worker stopped: ${reason}`));
+    port.listen((replies: Reply[]) => replies.forEach((reply) => this.#receive(reply)));
+    port.onFailure((reason) => this.close(new PliantError("crashed", `the worker stopped: ${reason}; init() starts another`)));
     port.busy(false);
   }
 
-  /** Calls a method of an object of the worker. Functions and signals of `local` are honoured. */
-  call<T>(target: number, method: string, args: unknown[], local: Local = {}): Promise<T> {
+  get closed(): boolean {
+    return this.#closed !== undefined;
+  }
+
+  /** Calls a method of an object of the worker; arguments are as they are now. */
+  call<T>(call: Omit<Call, "id">, local: Local = {}): Promise<T> {
     if (this.#closed) return Promise.reject(this.#closed);
-    const { signal, onProgress } = local;
+    const { signal } = local;
     if (signal?.aborted) return Promise.reject(new PliantError("aborted", "the signal was aborted", { cause: signal.reason }));
     const id = ++this.#last;
-    const abort = () => this.#port.post({ abort: id }, []);
-    const answer = new Promise<T>((resolve, reject) => {
-      this.#pending.set(id, { resolve, reject, onProgress });
-      try {
-        this.#port.post({ id, target, method, args }, []);
-        this.#port.busy(true);
-      } catch (error) {
-        this.#settle(id);
-        reject(new PliantError("invalid-option", `the arguments of ${method} cannot be sent to a worker: ${(error as Error).message}; expected plain data`, { cause: error }));
-      }
-    });
+    const sent = { ...call, id, args: ownCopies(call) };
+    const answer = new Promise<T>((resolve, reject) => this.#pending.set(id, { ...local, resolve, reject }));
+    this.#port.busy(true);
+    this.#post(sent);
     if (!signal) return answer;
+    const abort = () => this.#post({ abort: id });
     signal.addEventListener("abort", abort, { once: true });
     return answer.finally(() => signal.removeEventListener("abort", abort));
   }
 
   /** Lets the worker forget an object when `holder` is gone. */
-  keep(holder: object, { object }: Reference): void {
+  keep(holder: object, object: number): void {
     this.#dropped.register(holder, object);
   }
 
-  /** Ends the worker; calls under way fail. */
-  close(reason: string): void {
+  /** Ends the worker; calls under way, and every later one, fail with this error. */
+  close(error: PliantError): void {
     if (this.#closed) return;
-    this.#closed = new PliantError("disposed", reason);
-    for (const { reject } of this.#pending.values()) reject(this.#closed);
+    this.#closed = error;
+    for (const { reject } of this.#pending.values()) reject(error);
     this.#pending.clear();
     this.#port.terminate();
     this.onClose();
+  }
+
+  #post(request: Request): void {
+    if (this.#waiting.push(request) === 1) queueMicrotask(() => this.#flush());
+  }
+
+  #flush(): void {
+    const requests = this.#waiting;
+    this.#waiting = [];
+    if (this.#closed) return;
+    const args = requests.flatMap((request) => ("args" in request ? request.args : []));
+    this.#port.post(requests, [...new Set(args.flatMap(buffersOf))]);
   }
 
   #receive(reply: Reply): void {
@@ -80,8 +91,9 @@ export class Line {
       pending.resolve(reply.value as never);
       return;
     }
-    const { code, message } = reply.error;
-    pending.reject(code ? new PliantError(code, message) : new Error(message));
+    const error = unpackError(reply.error, pending.signal?.reason);
+    pending.reject(error);
+    if (error instanceof PliantError && error.code === "crashed") this.close(error);
   }
 
   /** A callback that throws ends its call, as it does without a worker. */
@@ -89,7 +101,7 @@ export class Line {
     try {
       onProgress?.(progress as never);
     } catch (error) {
-      this.#port.post({ abort: id }, []);
+      this.#post({ abort: id });
       this.#settle(id);
       reject(error as Error);
     }
@@ -101,14 +113,12 @@ export class Line {
   }
 }
 
-/** Options for the other side: what cannot travel is left here. */
-export function split(options: unknown): { sent: unknown; local: Local } {
-  if (typeof options !== "object" || options === null) return { sent: options, local: {} };
-  const { signal, onProgress } = options as Local;
-  const sent: Record<string, unknown> = { ...options };
-  const local: Local = {};
-  if (typeof onProgress === "function") [sent.onProgress, local.onProgress] = [provided, onProgress];
-  if (typeof AbortSignal === "function" && signal instanceof AbortSignal) [sent.signal, local.signal] = [provided, signal];
-  return { sent, local };
+/** The caller may change what it handed over before the message leaves. Errors: invalid-option. */
+function ownCopies({ method, args }: Omit<Call, "id">): unknown[] {
+  try {
+    return structuredClone(args);
+  } catch (error) {
+    const reason = `the arguments of ${method} cannot be sent to a worker: ${(error as Error).message}`;
+    throw new PliantError("invalid-option", `${reason}; expected plain data`, { cause: error });
+  }
 }
-

@@ -1,46 +1,82 @@
-// The objects of pliant/worker: as those of the package, but every call is a promise.
+// The objects of pliant/worker: as those of the package, but every call is a promise. What they can do stands in
+// surface.ts; types and documentation are those of the package's own classes.
 
-import { type FloatArray, Place, vertexIds } from "../boundary/check.js";
-import type { Counters, Deformer, Solution, SolveOptions, Step, StepOptions } from "../deform/deformer.js";
-import type { DeformerOptions, LiveOptions, MethodName } from "../methods/index.js";
-import type { MeasureOptions, Quality } from "../shape/quality.js";
-import type { EditOptions, EditResult, EditScript } from "../edit/types.js";
-import type { Selection } from "../shape/selection.js";
-import type { ShapeInput, ShapeReport } from "../shape/shape.js";
-import type { SketchOptions } from "../deform/sketch.js";
-import type { State } from "../boundary/state.js";
-import type { Transform } from "../shape/transform.js";
+import type { FloatArray } from "../boundary/check.js";
 import { disposeSymbol } from "../boundary/core.js";
-import { Remote } from "./remote.js";
-import { WorkerSketch } from "./sketch.js";
+import { PliantError } from "../boundary/errors.js";
+import type { Deformer } from "../deform/deformer.js";
+import type { Handle } from "../deform/handle.js";
+import type { Sketch } from "../deform/sketch.js";
+import type { DeformerOptions, MethodName } from "../methods/index.js";
+import type { Pliant } from "../pliant.js";
+import type { Shape } from "../shape/shape.js";
 import type { Line } from "./line.js";
 import type { Reference } from "./protocol.js";
+import { type Origin, Remote } from "./remote.js";
+import { type Calls, type ClassName, type Constants, rowOf } from "./surface.js";
+
+// -- Types, from those of the package. --------------------------------------------------------------
+
+/** What a page holds in place of a value of the package. */
+type OnPage<T> =
+  T extends Shape ? WorkerShape :
+  T extends Deformer<infer M> ? WorkerDeformer<M> :
+  T extends Handle ? WorkerHandle :
+  T extends Sketch ? WorkerSketch :
+  T;
+
+/** Results in a new array, or in the caller's. */
+interface Results {
+  (): Promise<Float32Array>;
+  <T extends FloatArray>(out: T): Promise<T>;
+}
+
+/** Points in the precision they came in, or in the caller's array. */
+interface CarriedPoints {
+  (points: Float32Array): Promise<Float32Array>;
+  (points: ArrayLike<number>): Promise<Float64Array>;
+  <T extends FloatArray>(points: ArrayLike<number>, out: T): Promise<T>;
+}
+
+/** A call of the package as a promise. */
+type Promised<Call, How> =
+  How extends { into: 0 } ? Results :
+  How extends { into: 1 } ? CarriedPoints :
+  Call extends (...args: infer Args) => infer Result
+    ? (...args: { [I in keyof Args]: OnPage<Args[I]> }) => Promise<OnPage<Awaited<Result>>>
+    : never;
+
+/** A class of the package as a page sees it. */
+type Seen<T, Name extends ClassName> = {
+  [Key in keyof T as Key extends Constants<Name> ? Key : never]: T[Key];
+} & {
+  [Key in keyof T as Key extends keyof Calls<Name> ? Key : never]:
+    Key extends keyof Calls<Name> ? Promised<T[Key], Calls<Name>[Key]> : never;
+};
+
+// -- Objects. ---------------------------------------------------------------------------------------
+
+/** A class with the calls that its row of the table lists. */
+function remote(name: ClassName): typeof Remote {
+  class Listed extends Remote {}
+  for (const [method, travel] of Object.entries(rowOf(name).calls)) {
+    const value = function (this: Remote, ...args: unknown[]) {
+      return this.send(method, travel, args, (reference) => made(travel.gives!, this.line, reference, { asked: this, args }));
+    };
+    Object.defineProperty(Listed.prototype, method, { value, writable: true, configurable: true });
+  }
+  return Listed;
+}
 
 /** See {@link Pliant}. */
-export class WorkerPliant extends Remote {
-  async shape(input: ShapeInput): Promise<WorkerShape> {
-    return new WorkerShape(this.line, await this.call<Reference>("shape", input));
-  }
-
-  async deformer<M extends MethodName>(shape: WorkerShape, options: { method: M } & DeformerOptions<M>): Promise<WorkerDeformer<M>> {
-    return new WorkerDeformer(this.line, await this.call<Reference>("deformer", shape, options), shape);
-  }
-
-  async sketch(shape: WorkerShape, options: SketchOptions): Promise<WorkerSketch> {
-    return new WorkerSketch(this.line, await this.call<Reference>("sketch", shape, options), shape);
-  }
-
-  measure(shape: WorkerShape, positions: ArrayLike<number>, options?: MeasureOptions): Promise<Quality> {
-    return this.call("measure", shape, positions, options);
-  }
-
-  edit(shape: WorkerShape, script: EditScript, options: EditOptions = {}): Promise<EditResult> {
-    return this.callWith("edit", options, shape, script);
-  }
-
+export interface WorkerPliant extends Omit<Seen<Pliant, "Pliant">, "deformer"> {
+  /** Builds a deformer over a shape. Errors: invalid-option, too-large. */
+  deformer<M extends MethodName>(shape: WorkerShape, options: { method: M } & DeformerOptions<M>): Promise<WorkerDeformer<M>>;
+}
+export class WorkerPliant extends remote("Pliant") {
   /** Ends the worker. Every later call, on any object of it, is a `disposed` error. */
   dispose(): void {
-    this.line.close("the worker is disposed; expected a live one");
+    this.line.close(new PliantError("disposed", "the worker is disposed; expected a live one"));
   }
 
   [disposeSymbol](): void {
@@ -49,138 +85,67 @@ export class WorkerPliant extends Remote {
 }
 
 /** See {@link Shape}. */
-export class WorkerShape extends Remote {
-  readonly report: Readonly<ShapeReport>;
-  readonly dimension: 2 | 3;
-  readonly diagonal: number;
-
-  /** @internal */
-  constructor(line: Line, reference: Reference) {
-    super(line, reference);
-    const { report, dimension, diagonal } = reference.shape!;
-    this.report = Object.freeze(report);
-    this.dimension = dimension;
-    this.diagonal = diagonal;
-  }
-
-  select(selection: Selection): Promise<Uint32Array> {
-    return this.call("select", selection);
-  }
-
-  dispose(): Promise<void> {
-    return this.call("dispose");
-  }
-}
+export interface WorkerShape extends Seen<Shape, "Shape"> {}
+export class WorkerShape extends remote("Shape") {}
 
 /** See {@link Deformer}. */
-export class WorkerDeformer<M extends MethodName = MethodName> extends Remote {
+export interface WorkerDeformer<M extends MethodName = MethodName> extends Seen<Deformer<M>, "Deformer"> {}
+export class WorkerDeformer<M extends MethodName = MethodName> extends remote("Deformer") {
   readonly shape: WorkerShape;
-  readonly method: M;
+  readonly #handles: WorkerHandle[] = [];
 
   /** @internal */
-  constructor(line: Line, reference: Reference, shape: WorkerShape) {
+  constructor(line: Line, reference: Reference, { args }: Origin) {
     super(line, reference);
-    this.shape = shape;
-    this.method = reference.method as M;
+    this.shape = args[0] as WorkerShape;
   }
 
-  async setFixed(vertices: Iterable<number>): Promise<void> {
-    return this.call("setFixed", this.#ids("fixed", vertices));
+  /** The handles there are, oldest first. */
+  get handles(): WorkerHandle[] {
+    return this.#handles.filter((handle) => !handle.ended);
   }
 
-  async addHandle(vertices: Iterable<number>): Promise<WorkerHandle> {
-    const ids = this.#ids("vertices", vertices);
-    return new WorkerHandle(this.line, await this.call<Reference>("addHandle", ids), ids);
-  }
-
-  setOptions(options: LiveOptions[M]): Promise<void> {
-    return this.call("setOptions", options);
-  }
-
-  step(options: StepOptions = {}): Promise<Step> {
-    return this.call("step", options);
-  }
-
-  solve(options: SolveOptions = {}): Promise<Solution> {
-    return this.callWith("solve", options);
-  }
-
-  energy(): Promise<ReturnType<Deformer["energy"]>> {
-    return this.call("energy");
-  }
-
-  counters(): Promise<Counters> {
-    return this.call("counters");
-  }
-
-  positions(): Promise<Float32Array>;
-  positions<T extends FloatArray>(out: T): Promise<T>;
-  positions(out?: FloatArray): Promise<FloatArray> {
-    return this.callInto(out, "positions");
-  }
-
-  normals(): Promise<Float32Array>;
-  normals<T extends FloatArray>(out: T): Promise<T>;
-  normals(out?: FloatArray): Promise<FloatArray> {
-    return this.callInto(out, "normals");
-  }
-
-  field(): Promise<Float32Array> {
-    return this.call("field");
-  }
-
-  transformPoints(points: Float32Array): Promise<Float32Array>;
-  transformPoints(points: ArrayLike<number>): Promise<Float64Array>;
-  transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): Promise<T>;
-  transformPoints(points: ArrayLike<number>, out?: FloatArray): Promise<FloatArray> {
-    return this.callInto(out, "transformPoints", points);
-  }
-
-  state(): Promise<State> {
-    return this.call("state");
-  }
-
-  restore(state: State): Promise<void> {
-    return this.call("restore", state);
-  }
-
-  reset(): Promise<void> {
-    return this.call("reset");
-  }
-
-  dispose(): Promise<void> {
-    return this.call("dispose");
-  }
-
-  /** An iterable does not travel. */
-  #ids(name: string, vertices: Iterable<number>): Int32Array {
-    return vertexIds(new Place("invalid-handle", name), vertices, this.shape.report.vertices);
+  /** @internal */
+  added(handle: WorkerHandle): void {
+    this.#handles.push(handle);
   }
 }
 
 /** See {@link Handle}. */
-export class WorkerHandle extends Remote {
-  readonly #vertices: Int32Array;
+export interface WorkerHandle extends Seen<Handle, "Handle"> {}
+export class WorkerHandle extends remote("Handle") {
+  readonly #vertices: Uint32Array;
 
   /** @internal */
-  constructor(line: Line, reference: Reference, vertices: Int32Array) {
-    super(line, reference);
-    this.#vertices = vertices;
+  constructor(line: Line, reference: Reference, { asked }: Origin) {
+    const { vertices, ...constants } = reference.constants;
+    super(line, { ...reference, constants });
+    this.#vertices = vertices as Uint32Array;
+    (asked as WorkerDeformer).added(this);
   }
 
+  /** Its vertices, in the order they were given. */
   get vertices(): Uint32Array {
-    return Uint32Array.from(this.#vertices);
+    return this.#vertices.slice();
   }
+}
 
-  move(transform: Transform): Promise<void> {
-    return this.call("move", transform);
-  }
+/** See {@link Sketch}. */
+export interface WorkerSketch extends Seen<Sketch, "Sketch"> {}
+export class WorkerSketch extends remote("Sketch") {
+  readonly shape: WorkerShape;
 
-  moveTo(targets: ArrayLike<number>): Promise<void> {
-    return this.call("moveTo", targets);
+  /** @internal */
+  constructor(line: Line, reference: Reference, { args }: Origin) {
+    super(line, reference);
+    this.shape = args[0] as WorkerShape;
   }
+}
 
-  remove(): Promise<void> {
-    return this.call("remove");
-  }
+const classes = {
+  Pliant: WorkerPliant, Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch,
+} satisfies Record<ClassName, unknown>;
+
+function made(name: ClassName, line: Line, reference: Reference, origin: Origin): Remote {
+  return new classes[name](line, reference, origin);
 }

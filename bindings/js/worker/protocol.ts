@@ -1,7 +1,11 @@
-// What the page and its worker say to each other. Objects live in the worker and are known by number.
+// What the page and its worker say to each other. Objects live in the worker and are known by number. Calls that are made
+// together travel in one message, and so do the answers that are there at once: a frame that steps and asks for positions
+// and normals costs one message each way.
 
-import type { ErrorCode } from "../boundary/errors.js";
-import type { ShapeReport } from "../shape/shape.js";
+import { PliantError, type ErrorCode } from "../boundary/errors.js";
+
+/** Names of options that stay on the page; the worker provides its own in their place. */
+export type LocalOption = "signal" | "onProgress";
 
 /** `target` 0 is the library itself. */
 export interface Call {
@@ -9,38 +13,61 @@ export interface Call {
   target: number;
   method: string;
   args: unknown[];
+  /** Objects of the worker among the arguments: which argument, which object. */
+  objects?: [argument: number, object: number][];
+  /** Options that the page keeps. */
+  local?: LocalOption[];
+  /** The results go to a fresh array of so many doubles. */
+  doubles?: number;
 }
 
 export type Request = Call | { abort: number } | { release: number };
 
 export type Reply =
   | { id: number; value: unknown }
-  | { id: number; error: { code: ErrorCode | undefined; message: string } }
+  | { id: number; error: Failure }
   | { id: number; progress: unknown };
 
 /** An object made in the worker, and what does not change about it. */
 export interface Reference {
   object: number;
-  shape?: { report: ShapeReport; dimension: 2 | 3; diagonal: number };
-  method?: string;
+  constants: Record<string, unknown>;
 }
 
-/** Stands for an object of the worker among the arguments of a call. */
-export interface Argument {
-  object: number;
+/** An error on its way. */
+export interface Failure {
+  code: ErrorCode | undefined;
+  message: string;
+  cause?: Failure;
 }
 
-/** Stands for a fresh array to write results to, in double. */
-export interface Fresh {
-  doubles: number;
+export function packError(error: unknown): Failure {
+  const code = error instanceof PliantError ? error.code : undefined;
+  if (!(error instanceof Error)) return { code, message: String(error) };
+  return { code, message: error.message, ...(error.cause === undefined ? {} : { cause: packError(error.cause) }) };
 }
 
-/** Stands for functions and signals in options: the other side provides its own. */
-export const provided = "provided";
+/** `reason`: the cause of an abort, which the page knows better. */
+export function unpackError({ code, message, cause }: Failure, reason?: unknown): Error {
+  const options = code === "aborted" ? { cause: reason } : cause ? { cause: unpackError(cause) } : undefined;
+  return code ? new PliantError(code, message, options) : new Error(message, options);
+}
+
+/** The memory of typed arrays in a value, up to two levels deep: it moves to the other side instead of being copied. */
+export function buffersOf(value: unknown): ArrayBuffer[] {
+  const found = new Set<ArrayBuffer>();
+  const visit = (item: unknown, levels: number) => {
+    if (typeof item !== "object" || item === null) return;
+    if (!ArrayBuffer.isView(item)) Object.values(levels > 0 ? item : {}).forEach((inner) => visit(inner, levels - 1));
+    else if (item.buffer instanceof ArrayBuffer) found.add(item.buffer);
+  };
+  visit(value, 2);
+  return [...found];
+}
 
 /** One end of the line between page and worker, in browsers and in Node alike. */
 export interface Port {
-  post(message: unknown, transfer: ArrayBuffer[]): void;
-  /** Messages are of the types above. */
+  post(message: Request[] | Reply[], transfer: ArrayBuffer[]): void;
+  /** Messages are lists of the types above. */
   listen(receive: (message: any) => void): void;
 }

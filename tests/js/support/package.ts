@@ -18,12 +18,12 @@ export const entries = (await import(/* @vite-ignore */ pathToFileURL(join(consu
 export const pliant = await entries.pliant.init();
 export const { PliantError } = entries.pliant;
 
-/** What an action throws or rejects with: code and message of a PliantError, anything else as it is. */
-export async function errorOf(action: () => unknown): Promise<{ code: string; message: string }> {
+/** What an action throws or rejects with: a PliantError's code, message and cause, anything else as it is. */
+export async function errorOf(action: () => unknown): Promise<{ code: string; message: string; cause?: unknown }> {
   try {
     await action();
   } catch (error) {
-    if (error instanceof PliantError) return { code: error.code, message: error.message };
+    if (error instanceof PliantError) return { code: error.code, message: error.message, cause: error.cause };
     throw error;
   }
   return { code: "none", message: "nothing was thrown" };

@@ -1,0 +1,97 @@
+// What a page may call in its worker, and how each call travels: the one table that both sides go by.
+//
+// A class of the package gets a row here, a line in `classes` of host.ts, and a class in objects.ts, whose types are made
+// from its own. A call that is listed is there on the page, answers by a promise, and keeps its name, arguments, result
+// and documentation.
+
+import type { Deformer } from "../deform/deformer.js";
+import type { Handle } from "../deform/handle.js";
+import type { Sketch } from "../deform/sketch.js";
+import type { Pliant } from "../pliant.js";
+import type { Shape } from "../shape/shape.js";
+
+/** The classes of the package whose objects live in a worker. */
+export interface Classes {
+  Pliant: Pliant;
+  Shape: Shape;
+  Deformer: Deformer;
+  Handle: Handle;
+  Sketch: Sketch;
+}
+
+export type ClassName = keyof Classes;
+
+/** How a call travels, where there is more to it than plain data both ways. */
+export interface Travel {
+  /** It answers with an object of this class, which stays in the worker. */
+  readonly gives?: ClassName;
+  /** Which argument is options with callbacks and signals, which stay on the page. */
+  readonly options?: number;
+  /** Which argument, the last, is the caller's own array for the results, which stays on the page. */
+  readonly into?: number;
+  /** The first argument is any iterable of vertex ids, called so in errors; what travels is a list. */
+  readonly ids?: string;
+  /** The object is gone after it, and may be gone before. */
+  readonly ends?: true;
+}
+
+export interface Row {
+  /** Properties that never change: they travel once, with the object. */
+  readonly constants: readonly string[];
+  readonly calls: Readonly<Record<string, Travel>>;
+}
+
+type Rows = {
+  readonly [Name in ClassName]: {
+    readonly constants: readonly (keyof Classes[Name])[];
+    readonly calls: { readonly [Call in keyof Classes[Name]]?: Travel };
+  };
+};
+
+const plain = {};
+const into = { into: 0 } as const;
+const ends = { ends: true } as const;
+
+export const surface = {
+  Pliant: {
+    constants: [],
+    calls: {
+      shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" },
+      measure: plain, edit: { options: 2 },
+    },
+  },
+  Shape: {
+    constants: ["report", "dimension", "diagonal"],
+    calls: { select: plain, dispose: ends },
+  },
+  Deformer: {
+    constants: ["method"],
+    calls: {
+      setFixed: { ids: "fixed" }, addHandle: { ids: "vertices", gives: "Handle" }, setOptions: plain,
+      step: plain, solve: { options: 0 }, energy: plain, counters: plain,
+      positions: into, normals: into, field: plain, transformPoints: { into: 1 },
+      state: plain, restore: plain, reset: plain, dispose: ends,
+    },
+  },
+  Handle: {
+    constants: ["vertices"],
+    calls: { move: plain, moveTo: plain, remove: ends },
+  },
+  Sketch: {
+    constants: [],
+    calls: {
+      redraw: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
+      setSmooth: plain, morph: plain, pose: plain, setPose: plain, reset: plain, refine: plain, unrefine: plain,
+      labels: plain, parameters: into, reference: plain, target: plain, positions: into, restPositions: into,
+      normals: into, seed: plain, state: plain, dispose: ends,
+    },
+  },
+} as const satisfies Rows;
+
+/** Calls and constants of a class. */
+export type Calls<Name extends ClassName> = (typeof surface)[Name]["calls"];
+export type Constants<Name extends ClassName> = (typeof surface)[Name]["constants"][number];
+
+export function rowOf(name: ClassName): Row {
+  return surface[name];
+}
