@@ -15,6 +15,8 @@ struct Method {
   std::function<std::unique_ptr<Deformer>(std::shared_ptr<const Shape>)> make;
   /// How far results may differ when the scene is turned by any angle (law 5), over the diagonal.
   double isotropy = 1e-5;
+  /// Other options, each set on a living deformer.
+  std::vector<std::function<void(Deformer&)>> live_options = {};
 };
 
 std::vector<Method> methods();

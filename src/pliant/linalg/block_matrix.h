@@ -29,6 +29,10 @@ struct BlockMatrix {
     diagonal.assign(static_cast<std::size_t>(nodes) * block * block, 0.0);
     off_diagonal.assign(edges.size() * block * block, 0.0);
   }
+  /// Whether it is laid out so; only then do numbers of edges and nodes mean the same to both.
+  bool has_pattern(int block_size, Index node_count, const std::vector<Edge>& sorted_edges) const {
+    return block == block_size && nodes == node_count && edges == sorted_edges;
+  }
   /// Sets the edges and their scalars (B is 1) from entries in any order; those of one edge are
   /// summed in the order given.
   void sum_off_diagonal(std::vector<std::pair<Edge, double>> entries) {

@@ -109,6 +109,7 @@ void SparseCholesky::link_supernodes() {
 }
 
 void SparseCholesky::place_entries(const BlockMatrix& matrix) {
+  edges_ = matrix.edges.size();
   entries_.assign(supernodes_.size(), {});
   auto front_row = [&](const Supernode& node, Index place) {
     if (place < node.first + node.width) return place - node.first;
@@ -238,7 +239,7 @@ void SparseCholesky::extend_add(const Supernode& child, const double* source, do
 }
 
 Status SparseCholesky::factorize(const BlockMatrix& matrix) {
-  assert(matrix.nodes == nodes_ && matrix.block == block_);
+  assert(matrix.nodes == nodes_ && matrix.block == block_ && matrix.edges.size() == edges_);
   const int b = block_;
   rough_.factor.reset();  // belongs to the last values
   // The update matrices that wait for their parents lie on two stacks, those of the next front's

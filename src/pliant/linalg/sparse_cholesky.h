@@ -112,6 +112,7 @@ class SparseCholesky {
 
   int block_ = 1;
   Index nodes_ = 0;
+  std::size_t edges_ = 0;        ///< of the analysed pattern
   std::vector<Index> position_;  ///< node -> place in elimination order
   std::vector<Supernode> supernodes_;
   std::vector<Index> supernode_of_;  ///< place -> supernode

@@ -101,6 +101,16 @@ TEST_CASE("fixed regions stay bit for bit and shrink the system") {
   CHECK(edit.deformer->counters().unknowns == 12 * (120 - frozen));
 }
 
+TEST_CASE("other fixed vertices that leave as many nodes free, but other edges between them") {
+  const auto mesh = test::plane_grid(5, 3);
+  const auto deformer = make(mesh, {.solver = EmbeddedGraphSolver::gauss_newton});
+  REQUIRE(deformer->add_handle(std::vector<Index>{14}).ok());
+  for (Index fixed : {11, 0, 7, 4}) {
+    REQUIRE(deformer->set_fixed(std::vector<Index>{fixed}).ok());
+    CHECK(deformer->step().ok());
+  }
+}
+
 TEST_CASE("no node turns inside out when handles turn far at once") {
   const auto mesh = test::tube(20, 60, 0.1, 2.0);
   for (auto solver : {EmbeddedGraphSolver::automatic, EmbeddedGraphSolver::gauss_newton}) {

@@ -303,7 +303,7 @@ void GraphEnergy::constant_matrix(BlockMatrix& matrix) const {
 }
 
 void GraphEnergy::gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const {
-  if (matrix.block != 12 || matrix.nodes != free_nodes()) matrix.set_zero(12, free_nodes(), free_edges_);
+  if (!matrix.has_pattern(12, free_nodes(), free_edges_)) matrix.set_zero(12, free_nodes(), free_edges_);
   using Block = Eigen::Matrix<double, 12, 12>;
   auto expand = [](const double* from, double* to) {
     Eigen::Map<Block> block(to);

@@ -78,7 +78,8 @@ class GraphEnergy {
   /// The constant part of half the Hessian, one 4 x 4 block a free node or edge, the same for x, y
   /// and z: w_reg A'A + w_con C'C.
   void constant_matrix(BlockMatrix& matrix) const;
-  /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry.
+  /// J'J of Gauss-Newton: 12 x 12 blocks, node by node, (a, entry) -> 4 a + entry. constant: of
+  /// `constant_matrix`. Lays `matrix` out anew unless it is laid out over the present free nodes and edges.
   void gauss_newton_matrix(const Vector& x, const BlockMatrix& constant, BlockMatrix& matrix) const;
 
   // The four numbers of row a of free node j.
