@@ -1,6 +1,7 @@
 // What every entry of the package exports beside its `init`.
 
 export type { FloatArray } from "./boundary/check.js";
+export type { Deformation } from "./deform/deformation.js";
 export { type Counters, Deformer, type Solution, type SolveOptions, type Step, type StepOptions } from "./deform/deformer.js";
 export { type ErrorCode, PliantError } from "./boundary/errors.js";
 export { Handle } from "./deform/handle.js";

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <emscripten/bind.h>
 
+#include "bound_deformation.h"
 #include "bound_shape.h"
-#include "bound_state.h"
 #include "pliant/deformers/arap/deformer.h"
 #include "pliant/deformers/edge_material/deformer.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
@@ -42,11 +42,6 @@ struct IdValue {
   int id = 0;
 };
 
-struct PointsValue {
-  StatusValue status;
-  val points = val::null();
-};
-
 struct CountValue {
   StatusValue status;
   Index added = 0;
@@ -54,11 +49,6 @@ struct CountValue {
 
 Points to_points(const std::vector<double>& coordinates) {
   return Eigen::Map<const Points>(coordinates.data(), 3, coordinates.size() / 3);
-}
-
-template <class Matrix>
-val view_of_matrix(const Matrix& matrix) {
-  return val(emscripten::typed_memory_view(matrix.size(), matrix.data()));
 }
 
 NodeSampling sampling_of(const std::string& name) {
@@ -156,9 +146,8 @@ Motion to_motion(const std::vector<double>& v) {
   return motion;
 }
 
-/// Empty until a build* succeeds; the other calls need a deformer. The views it hands out are of
-/// its own buffers, valid until the next call of the same name.
-class BoundDeformer {
+/// Empty until a build* succeeds; the other calls need a deformer.
+class BoundDeformer final : public BoundDeformation {
  public:
   StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values, const Scratch& scratch) {
     return take(EmbeddedGraph::create(shape.get(), to_options(values, scratch)));
@@ -176,8 +165,8 @@ class BoundDeformer {
     return to_value(as<EdgeMaterial>().set_options(to_options(field, scratch)));
   }
   val field() {
-    doubles_ = as<EdgeMaterial>().field();
-    return view_of_matrix(doubles_);
+    field_ = as<EdgeMaterial>().field();
+    return view_of(field_);
   }
 
   StatusValue set_fixed(const Scratch& scratch) { return to_value(deformer_->set_fixed(scratch.integers())); }
@@ -206,34 +195,13 @@ class BoundDeformer {
   }
   Counters counters() const { return deformer_->counters(); }
 
-  val positions() {
-    floats_ = deformer_->positions().cast<float>();
-    return view_of_matrix(floats_);
-  }
-  val positions64() {
-    doubles_ = deformer_->positions();
-    return view_of_matrix(doubles_);
-  }
-  val normals() {
-    floats_ = deformer_->normals().cast<float>();
-    return view_of_matrix(floats_);
-  }
-  PointsValue transform_points(const Scratch& scratch) {
-    auto carried = deformer_->transform_points(to_points(scratch.doubles()));
-    if (!carried.ok()) return {to_value(carried.status())};
-    doubles_ = std::move(*carried);
-    return {to_value(Status()), view_of_matrix(doubles_)};
-  }
-
   CountValue refine(Index max_nodes) {
     const auto added = as<EmbeddedGraph>().refine(max_nodes);
     return {to_value(added.status()), added.ok() ? *added : 0};
   }
-  void reset() { deformer_->reset(); }
-  void save(BoundState& bound) const { bound.state = deformer_->save(); }
-  StatusValue restore(const BoundState& bound) { return to_value(deformer_->restore(bound.state)); }
 
  private:
+  Deformation& deformation() override { return *deformer_; }
   template <class Method>
   StatusValue take(Result<std::unique_ptr<Method>> built) {
     if (built.ok()) deformer_ = std::move(*built);
@@ -246,8 +214,7 @@ class BoundDeformer {
   }
 
   std::unique_ptr<Deformer> deformer_;
-  Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
-  Points doubles_;
+  Points field_;
 };
 
 }  // namespace
@@ -280,10 +247,9 @@ EMSCRIPTEN_BINDINGS(pliant_deformer) {
       .field("factorizations", &Counters::factorizations)
       .field("analyses", &Counters::analyses);
   value_object<IdValue>("RawId").field("status", &IdValue::status).field("id", &IdValue::id);
-  value_object<PointsValue>("RawPoints").field("status", &PointsValue::status).field("points", &PointsValue::points);
   value_object<CountValue>("RawCount").field("status", &CountValue::status).field("added", &CountValue::added);
 
-  emscripten::class_<BoundDeformer>("Deformer")
+  emscripten::class_<BoundDeformer, emscripten::base<BoundDeformation>>("Deformer")
       .constructor<>()
       .function("buildEmbeddedGraph", &BoundDeformer::build_embedded_graph)
       .function("buildArap", &BoundDeformer::build_arap)
@@ -300,14 +266,7 @@ EMSCRIPTEN_BINDINGS(pliant_deformer) {
       .function("energyTotal", &BoundDeformer::energy_total)
       .function("energyTerms", &BoundDeformer::energy_terms)
       .function("counters", &BoundDeformer::counters)
-      .function("positions", &BoundDeformer::positions)
-      .function("positions64", &BoundDeformer::positions64)
-      .function("normals", &BoundDeformer::normals)
-      .function("transformPoints", &BoundDeformer::transform_points)
-      .function("refine", &BoundDeformer::refine)
-      .function("reset", &BoundDeformer::reset)
-      .function("save", &BoundDeformer::save)
-      .function("restore", &BoundDeformer::restore);
+      .function("refine", &BoundDeformer::refine);
 }
 
 }  // namespace pliant::bindings

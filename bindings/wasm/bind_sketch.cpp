@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <emscripten/bind.h>
 
+#include "bound_deformation.h"
 #include "bound_shape.h"
-#include "bound_state.h"
 #include "pliant/sketch/sketch.h"
 
 namespace pliant::bindings {
@@ -86,7 +86,7 @@ class Unpacker {
 
 /// Empty until `build` succeeds; the other calls need a sketch. The views it hands out are of its
 /// own buffers, valid until the next call.
-class BoundSketch {
+class BoundSketch final : public BoundDeformation {
  public:
   StatusValue build(const BoundShape& shape, bool smooth, bool mirrored, const Scratch& scratch) {
     Unpacker from(scratch);
@@ -137,7 +137,6 @@ class BoundSketch {
   }
   void set_smooth(bool smooth) { sketch_->set_smooth(smooth); }
   StatusValue set_morph(double t) { return to_value(sketch_->set_morph(t)); }
-  void reset() { sketch_->reset(); }
 
   /// Packed as `Unpacker::pose` takes it, with the counts in line.
   val pose() {
@@ -195,23 +194,14 @@ class BoundSketch {
   val reference() { return of_points(sketch_->reference()); }
   val target() { return of_points(sketch_->target()); }
   val rest() { return of_points(sketch_->rest()); }
-  val positions64() { return of_points(sketch_->positions()); }
-  val positions() {
-    floats_ = sketch_->positions().cast<float>();
-    return view_of(floats_);
-  }
-  val normals() {
-    floats_ = sketch_->normals().cast<float>();
-    return view_of(floats_);
-  }
   /// Keeps a seed for the three calls after it.
   void seed(double spacing) { seed_ = sketch_->seed(spacing); }
   val seed_fixed() const { return view_of(seed_.fixed); }
   val seed_vertices() const { return view_of(seed_.vertices); }
   val seed_targets() const { return view_of(seed_.targets); }
-  void save(BoundState& bound) const { bound.state = sketch_->save(); }
 
  private:
+  Deformation& deformation() override { return *sketch_; }
   template <class Set>
   StatusValue with_profile(const Scratch& scratch, const Set& set) {
     const Result<Profile> profile = Profile::create(Unpacker(scratch).points(), "profile");
@@ -227,13 +217,12 @@ class BoundSketch {
   std::vector<Index> ids_;
   std::vector<double> numbers_;
   Points points_;
-  Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
 };
 
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(pliant_sketch) {
-  emscripten::class_<BoundSketch>("Sketch")
+  emscripten::class_<BoundSketch, emscripten::base<BoundDeformation>>("Sketch")
       .constructor<>()
       .function("build", &BoundSketch::build)
       .function("redraw", &BoundSketch::redraw)
@@ -245,7 +234,6 @@ EMSCRIPTEN_BINDINGS(pliant_sketch) {
       .function("setTwistSpeed", &BoundSketch::set_twist_speed)
       .function("setSmooth", &BoundSketch::set_smooth)
       .function("setMorph", &BoundSketch::set_morph)
-      .function("reset", &BoundSketch::reset)
       .function("pose", &BoundSketch::pose)
       .function("setPose", &BoundSketch::set_pose)
       .function("refine", &BoundSketch::refine)
@@ -259,14 +247,10 @@ EMSCRIPTEN_BINDINGS(pliant_sketch) {
       .function("reference", &BoundSketch::reference)
       .function("target", &BoundSketch::target)
       .function("rest", &BoundSketch::rest)
-      .function("positions", &BoundSketch::positions)
-      .function("positions64", &BoundSketch::positions64)
-      .function("normals", &BoundSketch::normals)
       .function("seed", &BoundSketch::seed)
       .function("seedFixed", &BoundSketch::seed_fixed)
       .function("seedVertices", &BoundSketch::seed_vertices)
-      .function("seedTargets", &BoundSketch::seed_targets)
-      .function("save", &BoundSketch::save);
+      .function("seedTargets", &BoundSketch::seed_targets);
 }
 
 }  // namespace pliant::bindings

@@ -299,6 +299,24 @@ describe("results", () => {
     expect(sketch.reference()).toHaveLength(sketch.target().length);
   });
 
+  it("come back from a state, written as JSON too, and a state of another sketch changes nothing", () => {
+    const sketch = make();
+    sketch.bend(arc);
+    sketch.scale([[0, 1], [1, 1.5]]);
+    sketch.morph(0.6);
+    const [saved, posed] = [JSON.parse(JSON.stringify(sketch.state())), doubles(sketch)];
+    expect(saved.pose).toEqual(sketch.pose());
+    sketch.reset();
+    sketch.restore(saved);
+    expect(doubles(sketch)).toEqual(posed);
+    const other = make({ reference: curved(0.01, 0.22, 0.55, () => 0.1) });
+    expect(() => other.restore(saved)).toThrow(/(labels|reference) of the state/);
+    expect(() => sketch.restore({ ...saved, morph: 2 })).toThrow(/no morph from 0 to 1/);
+    expect(() => sketch.restore({ ...saved, colour: 2 })).toThrow(/state.colour is not a known field/);
+    expect(doubles(sketch)).toEqual(posed);
+    expect(() => sketch.transformPoints([0, 0, 0])).toThrow(/moves a surface/);
+  });
+
   it("outlive the shape, and end with dispose", () => {
     const own = pliant.shape(mesh);
     const sketch = pliant.sketch(own, { camera, reference: straight });

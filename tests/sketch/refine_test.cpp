@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "pliant/geometry/adjacency.h"
+#include "pliant/solve/deformation.h"
 #include "sketch/sketch_support.h"
 
 namespace pliant {
@@ -157,6 +158,50 @@ TEST_CASE("nothing is refined where nothing stretches, and limits are kept") {
   CHECK(sketch->positions().cols() == mesh.vertices());
   const std::vector<std::uint32_t> wrong{0, 1, 100000};
   CHECK(sketch->refine(wrong).message().find("triangles[2] is 100000") == 0);
+}
+
+TEST_CASE("restore brings back what was saved, bit for bit, or changes nothing") {
+  const test::Mesh mesh = seamed_tube();
+  const auto sketch = test::sketch_on(mesh, reference());
+  REQUIRE(sketch->bend(long_hook()).ok());
+  REQUIRE(sketch->twist(1.0).ok());
+  REQUIRE(sketch->set_morph(0.7).ok());
+  Deformation& deformation = *sketch;
+  const State saved = deformation.save();
+  const Points posed = deformation.positions();
+
+  REQUIRE(sketch->set_morph(1.0).ok());
+  REQUIRE(sketch->bend(reference()).ok());
+  REQUIRE(deformation.positions() != posed);
+  REQUIRE(deformation.restore(saved).ok());
+  CHECK(deformation.positions() == posed);
+  CHECK(sketch->pose().twists());
+
+  // A refined state comes back while its vertices are there; an older one takes them away.
+  REQUIRE(sketch->refine(mesh.triangles).ok());
+  const State refined = deformation.save();
+  const Points all = deformation.positions();
+  REQUIRE(all.cols() > posed.cols());
+  deformation.reset();
+  REQUIRE(deformation.restore(refined).ok());
+  CHECK(deformation.positions() == all);
+  REQUIRE(deformation.restore(saved).ok());
+  CHECK(deformation.positions() == posed);
+
+  // Bad states.
+  CHECK(deformation.restore(refined).code() == ErrorCode::invalid_option);
+  for (const char* name : {"labels", "reference", "morph", "s", "pose/heading", "pose/turns", "pose/twist"}) {
+    CAPTURE(name);
+    State broken = saved;
+    for (StateTable& table : broken.tables) {
+      if (table.name == name) table.data.assign(2, 5.0);
+    }
+    CHECK(deformation.restore(broken).code() == ErrorCode::invalid_option);
+    CHECK(deformation.positions() == posed);
+  }
+  const auto other = test::sketch_on(mesh, test::straight(front_pixel(0.0, 0.2), front_pixel(0.0, 0.8)));
+  CHECK(other->restore(saved).code() == ErrorCode::invalid_option);
+  CHECK(deformation.transform_points(posed).status().code() == ErrorCode::not_solvable);
 }
 
 }  // namespace

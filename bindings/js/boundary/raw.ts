@@ -82,7 +82,19 @@ export interface RawState extends RawObject {
   add(name: string, columns: number, integral: boolean, scratch: RawScratch): void;
 }
 
-export interface RawDeformer extends RawObject {
+/** What deformers and sketches have in common (bind_deformation.cpp). */
+export interface RawDeformation extends RawObject {
+  positions(): Float32Array; // 3 a vertex
+  positions64(): Float64Array; // 3 a vertex
+  normals(): Float32Array; // 3 a vertex
+  /** doubles in: 3 q; on success `points` is a view of 3 q doubles. */
+  transformPoints(scratch: RawScratch): { status: RawStatus; points: Float64Array };
+  reset(): void;
+  save(state: RawState): void;
+  restore(state: RawState): RawStatus;
+}
+
+export interface RawDeformer extends RawDeformation {
   /** Cuts: scratch.integers holds, for each pair, |a|, a..., |b|, b... (empty: none). */
   buildEmbeddedGraph(shape: RawShape, options: RawEmbeddedGraphOptions, scratch: RawScratch): RawStatus;
   /** constraintWeight 0: exact handles. */
@@ -109,16 +121,8 @@ export interface RawDeformer extends RawObject {
   energyTotal(): number;
   energyTerms(): RawEnergyTerm[];
   counters(): RawCounters;
-  positions(): Float32Array; // 3 n
-  positions64(): Float64Array; // 3 n
-  normals(): Float32Array; // 3 n
-  /** doubles in: 3 q; on success `points` is a view of 3 q doubles. */
-  transformPoints(scratch: RawScratch): { status: RawStatus; points: Float64Array };
   /** Adds graph nodes where the energy terms are high; `added` 0 where nothing is left to refine. */
   refine(maxNodes: number): { status: RawStatus; added: number };
-  reset(): void;
-  save(state: RawState): void;
-  restore(state: RawState): RawStatus;
 }
 
 /**
@@ -127,7 +131,7 @@ export interface RawDeformer extends RawObject {
  * STROKE and PROFILE: two numbers a sample beside how many;
  * POSE: heading, length, turns, twist, scale beside how many turns and points of each profile.
  */
-export interface RawSketch extends RawObject {
+export interface RawSketch extends RawDeformation {
   /** CAMERA, STROKE (reference), if mirrored a point and a normal, then beside how many there are the partitions as STROKEs; labels are the other integers. */
   build(shape: RawShape, smooth: boolean, mirrored: boolean, scratch: RawScratch): RawStatus;
   /** CAMERA, STROKE. */
@@ -142,7 +146,6 @@ export interface RawSketch extends RawObject {
   setTwistSpeed(scratch: RawScratch): RawStatus;
   setSmooth(smooth: boolean): void;
   setMorph(t: number): RawStatus;
-  reset(): void;
   /** A POSE with the counts in line, each before what it counts. */
   pose(): Float64Array;
   /** POSE; if two, another: then the share t of the way to it. */
@@ -156,19 +159,15 @@ export interface RawSketch extends RawObject {
   triangles(): Uint32Array; // 3 a triangle
   triangleParents(): Uint32Array; // 1 a triangle
   labels(): Int32Array; // n
-  parameters(): Float64Array; // n + added, as those below
+  parameters(): Float64Array; // n + added
   reference(): Float64Array; // 3 a node
   target(): Float64Array; // 3 a node
-  rest(): Float64Array;
-  positions(): Float32Array;
-  positions64(): Float64Array;
-  normals(): Float32Array;
+  rest(): Float64Array; // 3 (n + added)
   /** Keeps what the next three give; spacing in diagonals. */
   seed(spacing: number): void;
   seedFixed(): Int32Array;
   seedVertices(): Int32Array;
   seedTargets(): Float64Array; // 3 a vertex
-  save(state: RawState): void;
 }
 
 export interface RawQuality {

@@ -106,9 +106,9 @@ function packHandles(place: Place, value: unknown): PackedHandles {
   };
 }
 
-/** Fills `raw` from a state with fields that `like` has too, tables of the same deformer; it may have fewer. */
-export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[]): void {
-  const tops = [...new Set(like.map((table) => table.name.split("/")[0]))];
+/** Fills `raw` from a state with fields that `like` has too, tables of the same deformation; it may have fewer, and `others`, which are left out. */
+export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[], others: readonly string[]): void {
+  const tops = [...new Set([...like.map((table) => table.name.split("/")[0]), ...others])];
   const given: Nested = { ...fields(place, state, tops, "field of this state") };
   for (const name of records) {
     const columns = like.filter((table) => table.name.startsWith(`${name}/`)).map((table) => table.name.slice(name.length + 1));

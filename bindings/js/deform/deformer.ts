@@ -1,13 +1,14 @@
 // Deformers: a shape, constraints on it, and a method that finds the deformation.
 
-import { coordinates, fields, type FloatArray, integer, output, Place, positive, toSpace, vertexIds } from "../boundary/check.js";
-import { accept, build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
+import { fields, integer, Place, positive, vertexIds } from "../boundary/check.js";
+import { accept, build, type Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
+import type { State } from "../boundary/state.js";
+import { Deformation } from "./deformation.js";
 import { Handle } from "./handle.js";
 import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "../methods/index.js";
 import type { RawDeformer } from "../boundary/raw.js";
 import { extentOf, type Shape, shapeFor } from "../shape/shape.js";
-import { readTables, type State, toState, writeTables } from "../boundary/state.js";
 
 /** What one iteration did. */
 export interface Step {
@@ -49,13 +50,12 @@ export interface Counters {
   analyses: number;
 }
 
-const pointsPerCall = 1 << 16;
-
-/** Made by `pliant.deformer`. Vertex ids are the input's; results are copies, in the input's order. */
-export class Deformer<M extends MethodName = MethodName> {
-  readonly shape: Shape;
+/**
+ * A shape, constraints on it, and a method that finds the deformation. Made by `pliant.deformer`. `reset` keeps handles and
+ * the fixed region, targets return to rest; `restore` brings targets back, too, of handles with the same vertices.
+ */
+export class Deformer<M extends MethodName = MethodName> extends Deformation<State, RawDeformer> {
   readonly method: M;
-  readonly #owned: Owned<RawDeformer>;
   readonly #method: Method;
   #options: Options;
   readonly #handles = new Map<number, Handle>();
@@ -66,13 +66,13 @@ export class Deformer<M extends MethodName = MethodName> {
     const place = new Place("invalid-option", "options");
     shapeFor(core, shape);
     if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
-    this.shape = shape;
-    this.#method = readMethod(place.at("method"), options.method);
-    this.method = this.#method.name as M;
-    this.#options = readOptions(place, options, this.#method, extentOf(shape), ["method"]);
-    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) =>
-      this.#method.build(core, unbuilt, shape, this.#options, place));
-    this.#owned = new Owned(core, raw, this, "deformer");
+    const method = readMethod(place.at("method"), options.method);
+    const read = readOptions(place, options, method, extentOf(shape), ["method"]);
+    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) => method.build(core, unbuilt, shape, read, place));
+    super(core, shape, raw, "deformer");
+    this.#method = method;
+    this.method = method.name as M;
+    this.#options = read;
   }
 
   // -- On grab: the next step factorises. -----------------------------------------------------------
@@ -80,7 +80,7 @@ export class Deformer<M extends MethodName = MethodName> {
   /** Replaces the fixed region; no vertices: none. Errors: invalid-handle. */
   setFixed(vertices: Iterable<number>): void {
     const ids = vertexIds(new Place("invalid-handle", "fixed"), vertices, this.shape.report.vertices);
-    this.#owned.accept((raw) => raw.setFixed(this.#core.stage([], ids)));
+    this.owned.accept((raw) => raw.setFixed(this.#core.stage([], ids)));
   }
 
   /** Adds a handle, at rest until it is moved. Errors: invalid-handle, also for a vertex that is fixed or of another handle. */
@@ -88,9 +88,9 @@ export class Deformer<M extends MethodName = MethodName> {
     const place = new Place("invalid-handle", "vertices");
     const ids = vertexIds(place, vertices, this.shape.report.vertices);
     if (ids.length === 0) place.reject("is empty; expected at least one vertex id");
-    const { status, id } = this.#owned.call((raw) => raw.addHandle(this.#core.stage([], ids)));
+    const { status, id } = this.owned.call((raw) => raw.addHandle(this.#core.stage([], ids)));
     accept(status);
-    const handle = new Handle(this.#owned, this.shape, id, ids, () => this.#handles.delete(id));
+    const handle = new Handle(this.owned, this.shape, id, ids, () => this.#handles.delete(id));
     this.#handles.set(id, handle);
     return handle;
   }
@@ -113,7 +113,7 @@ export class Deformer<M extends MethodName = MethodName> {
     if (!update) return;
     const merged = merge?.(this.#options, given) ?? { ...this.#options, ...given };
     this.#method.check(place, merged);
-    this.#owned.accept((raw) => update(this.#core, raw, this.shape, merged, place));
+    this.owned.accept((raw) => update(this.#core, raw, this.shape, merged, place));
     this.#options = merged;
   }
 
@@ -142,7 +142,7 @@ export class Deformer<M extends MethodName = MethodName> {
 
   #step(tolerance: number): Step {
     const start = performance.now();
-    const { status, ...report } = this.#owned.call((raw) => raw.step(tolerance));
+    const { status, ...report } = this.owned.call((raw) => raw.step(tolerance));
     accept(status);
     const milliseconds = performance.now() - start;
     return { ...report, terms: this.#terms("value"), milliseconds };
@@ -151,7 +151,7 @@ export class Deformer<M extends MethodName = MethodName> {
   /** Whether refinement has added something to solve. */
   #refine(): boolean {
     if (this.#refined) return false;
-    const result = this.#owned.call((raw) => this.#method.refine?.(raw, this.shape, this.#options));
+    const result = this.owned.call((raw) => this.#method.refine?.(raw, this.shape, this.#options));
     if (!result) return false;
     accept(result.status);
     this.#refined = true;
@@ -160,131 +160,28 @@ export class Deformer<M extends MethodName = MethodName> {
 
   /** At the current deformation and targets: the weighted sum, each term unweighted, and the weights. */
   energy(): { total: number; terms: Record<string, number>; weights: Record<string, number> } {
-    const total = this.#owned.call((raw) => raw.energyTotal());
+    const total = this.owned.call((raw) => raw.energyTotal());
     return { total, terms: this.#terms("value"), weights: this.#terms("weight") };
   }
 
   #terms(part: "value" | "weight"): Record<string, number> {
-    const terms = this.#owned.call((raw) => raw.energyTerms());
+    const terms = this.owned.call((raw) => raw.energyTerms());
     return Object.fromEntries(terms.map((term) => [term.name, term[part]]));
   }
 
   counters(): Counters {
-    return this.#owned.call((raw) => raw.counters());
-  }
-
-  // -- Results. -------------------------------------------------------------------------------------
-
-  /** Deformed positions of the input's vertices, `shape.dimension` numbers each; a Float64Array for `out` gets them in double. */
-  positions(): Float32Array;
-  positions<T extends FloatArray>(out: T): T;
-  positions(out?: FloatArray): FloatArray {
-    const length = this.shape.report.vertices * this.shape.dimension;
-    const result = output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
-    this.#owned.call((raw) =>
-      copyPoints(result instanceof Float64Array ? raw.positions64() : raw.positions(), result, 0, this.shape.dimension));
-    return result;
-  }
-
-  /** Unit normals, three numbers a vertex. */
-  normals(): Float32Array;
-  normals<T extends FloatArray>(out: T): T;
-  normals(out?: FloatArray): FloatArray {
-    const length = this.shape.report.vertices * 3;
-    const result = output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
-    this.#owned.call((raw) => result.set(raw.normals()));
-    return result;
+    return this.owned.call((raw) => raw.counters());
   }
 
   /** The directions in use by `edge-material`, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or zero. Errors: not-solvable. */
   field(): Float32Array {
     const { field } = this.#method;
     if (!field) throw new PliantError("not-solvable", `${this.method} has no directions; expected edge-material`);
-    return this.#owned.call((raw) => Float32Array.from(field(raw)));
-  }
-
-  /** Other points, in rest coordinates, carried by the same deformation; single precision in, single out. `out` may be `points`. Errors: not-solvable where the method does not deform space. */
-  transformPoints(points: Float32Array): Float32Array;
-  transformPoints(points: ArrayLike<number>): Float64Array;
-  transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): T;
-  transformPoints(points: ArrayLike<number>, out?: FloatArray): FloatArray {
-    const { dimension } = this.shape;
-    const checked = coordinates(new Place("invalid-option", "points"), points, dimension);
-    const given = checked instanceof Float32Array ? checked : Float64Array.from(checked);
-    const result = output(new Place("invalid-option", "out"), out, given.length, () => new (given.constructor as Float64ArrayConstructor)(given.length));
-    const size = pointsPerCall * dimension;
-    for (let at = 0; at < given.length; at += size) {
-      this.#owned.accept((raw) => {
-        const carried = raw.transformPoints(this.#core.stage(toSpace(given.subarray(at, at + size), dimension)));
-        if (carried.status.code === "ok") copyPoints(carried.points, result, at, dimension);
-        return carried.status;
-      });
-    }
-    return result;
-  }
-
-  // -- Life. ----------------------------------------------------------------------------------------
-
-  /** All that is needed to recompute the result without Pliant. */
-  state(): State {
-    return this.#withState((raw, state) => {
-      raw.save(state);
-      return toState(readTables(state));
-    });
-  }
-
-  /** Takes a state saved by the same method over the same shape; targets come back for handles with the same vertices. Errors: invalid-option. */
-  restore(state: State): void {
-    const place = new Place("invalid-option", "state");
-    this.#withState((raw, saved) => {
-      raw.save(saved);
-      const like = readTables(saved);
-      return this.#withState((_, given) => {
-        writeTables(this.#core, given, place, state, like);
-        accept(raw.restore(given));
-      });
-    });
-  }
-
-  /** Back to rest, bit for bit: handles and the fixed region stay, targets return to rest. */
-  reset(): void {
-    this.#owned.call((raw) => raw.reset());
-  }
-
-  /** Frees its memory. Every later call, also on its handles, is a `disposed` error. */
-  dispose(): void {
-    this.#owned.dispose();
-  }
-
-  [disposeSymbol](): void {
-    this.dispose();
+    return this.owned.call((raw) => Float32Array.from(field(raw)));
   }
 
   get #core(): Core {
-    return this.#owned.core;
-  }
-
-  #withState<T>(use: (raw: RawDeformer, state: InstanceType<Core["raw"]["State"]>) => T): T {
-    return this.#owned.call((raw) => {
-      const state = new this.#core.raw.State();
-      try {
-        return use(raw, state);
-      } finally {
-        state.delete();
-      }
-    });
-  }
-}
-
-/** Copies points out of WASM memory; the plane drops z. */
-function copyPoints(from: FloatArray, to: FloatArray, at: number, dimension: number): void {
-  if (dimension === 3) {
-    to.set(from, at);
-    return;
-  }
-  for (let i = 0; i < from.length; i += 3, at += 2) {
-    to[at] = from[i];
-    to[at + 1] = from[i + 1];
+    return this.owned.core;
   }
 }
 

@@ -1,11 +1,11 @@
 // Editing by two strokes: one over a limb, a second where it should go.
 
-import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, output, Place } from "../boundary/check.js";
-import { build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
+import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place } from "../boundary/check.js";
+import { build, type Core } from "../boundary/core.js";
 import type { RawScratch, RawSketch, RawStatus } from "../boundary/raw.js";
 import { insideOf, type Shape, shapeFor } from "../shape/shape.js";
+import { Deformation } from "./deformation.js";
 import { type Camera, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
-import { readTables, toState } from "../boundary/state.js";
 
 export type { Camera, Mirror, Profile, SketchPose, Stroke };
 
@@ -58,6 +58,9 @@ export interface SketchState {
   target: number[][];
   /** Of the planes of the curves, one a side. */
   normals: number[][];
+  /** The whole pose, as `pose()` gives it, and the share of the way to it that is shown. */
+  pose: SketchPose;
+  morph: number;
   /** With a mirror: 0 for a vertex of the drawn side, 1 for one of the mirrored. */
   sides?: number[];
   /** With twist or scale: middles of the sections, nodes of a curve as `reference`; angles about it and factors of the vertices, applied before the bend. */
@@ -78,21 +81,18 @@ type PackedCall = (raw: RawSketch, scratch: RawScratch) => RawStatus;
  * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
  *
  * Bend, twist and scale add up; each call replaces what it set before and is cheap enough for every
- * event of a pen. Vertex ids are the input's; results are copies.
+ * event of a pen. `reset` keeps the region and smoothing. `restore` takes the pose and the morph of a state over the same
+ * reference; vertices that refinement added have to be those of now, and a state without any takes them back.
  */
-export class Sketch {
-  readonly shape: Shape;
-  readonly #owned: Owned<RawSketch>;
-
+export class Sketch extends Deformation<SketchState, RawSketch> {
   /** @internal */
   constructor(core: Core, shape: Shape, options: SketchOptions) {
     shapeFor(core, shape);
     if (shape.dimension !== 3) new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
-    this.shape = shape;
     const { packed, smooth, mirrored } = readSketch(options);
     const raw = build(core, () => new core.raw.Sketch(), (unbuilt) => insideOf(shape).owned.call((rawShape) =>
       unbuilt.build(rawShape, smooth, mirrored, core.stage(packed.doubles, packed.integers))));
-    this.#owned = new Owned(core, raw, this, "sketch");
+    super(core, shape, raw, "sketch");
   }
 
   /** Another reference stroke over the same region, maybe seen from elsewhere; back to rest. Errors: invalid-option; nothing changes then. */
@@ -117,13 +117,13 @@ export class Sketch {
 
   /** Takes the bend back; twist and scale stay. */
   unbend(): void {
-    this.#owned.call((raw) => raw.unbend());
+    this.owned.call((raw) => raw.unbend());
   }
 
   /** Twists the limb, right-handed about the stroke's direction, by any angle at its end. Errors: invalid-option, also where the stroke runs beside the shape. */
   twist(degrees: number): void {
     const radians = (finite(option("degrees"), degrees, "a finite number of degrees") * Math.PI) / 180;
-    this.#owned.accept((raw) => raw.twist(radians));
+    this.owned.accept((raw) => raw.twist(radians));
   }
 
   /** Scales the limb about the middle of its sections by factors above 0 over s. Errors: as `twist`. */
@@ -144,18 +144,18 @@ export class Sketch {
   /** Whether the parameters are smoothed over the region; the pose stays. */
   setSmooth(smooth: boolean): void {
     const value = flag(option("smooth"), smooth);
-    this.#owned.call((raw) => raw.setSmooth(value));
+    this.owned.call((raw) => raw.setSmooth(value));
   }
 
   /** Shows the way from rest (0) to the pose (1) by lengths and angles. Errors: invalid-option. */
   morph(t: number): void {
     const share = fraction(option("morph"), t);
-    this.#owned.accept((raw) => raw.setMorph(share));
+    this.owned.accept((raw) => raw.setMorph(share));
   }
 
   /** The whole pose, to be kept and set again. */
   pose(): SketchPose {
-    return this.#owned.call((raw) => unpackPose(raw.pose()));
+    return this.owned.call((raw) => unpackPose(raw.pose()));
   }
 
   /** Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to the identity. Errors: invalid-option. */
@@ -167,11 +167,6 @@ export class Sketch {
     this.#accept(packed, (raw, scratch) => raw.setPose(scratch, two, share));
   }
 
-  /** Back to rest, bit for bit; the region and smoothing stay. */
-  reset(): void {
-    this.#owned.call((raw) => raw.reset());
-  }
-
   // -- Refinement. ----------------------------------------------------------------------------------
 
   /** Splits edges that the pose stretches and bends, again and again; later poses move the added vertices too. `maxAdded`: 1,000,000. Errors: invalid-option, too-large. */
@@ -179,71 +174,56 @@ export class Sketch {
     const place = option("options");
     const { maxAdded = defaultMaxAdded } = fields(place, options, ["maxAdded"]);
     const most = integer(place.at("maxAdded"), maxAdded, 0, 2 ** 31 - 1);
-    const { core } = this.#owned;
-    this.#owned.accept((raw) => core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)));
+    const { core } = this.owned;
+    this.owned.accept((raw) => core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)));
     return this.refinement!;
   }
 
   /** Takes the refinement back. */
   unrefine(): void {
-    this.#owned.call((raw) => raw.unrefine());
+    this.owned.call((raw) => raw.unrefine());
   }
 
   /** What `refine` added; undefined without it. */
   get refinement(): Refinement | undefined {
-    return this.#owned.call((raw) => (raw.added() < 0 ? undefined : {
+    return this.owned.call((raw) => (raw.added() < 0 ? undefined : {
       parents: Uint32Array.from(raw.parents()), triangles: raw.triangles().slice(), triangleParents: raw.triangleParents().slice(),
     }));
   }
 
-  /** Vertices of the input and added ones. */
-  get vertices(): number {
-    return this.shape.report.vertices + Math.max(0, this.#owned.call((raw) => raw.added()));
+  override get vertices(): number {
+    return this.shape.report.vertices + Math.max(0, this.owned.call((raw) => raw.added()));
   }
 
   // -- Results. -------------------------------------------------------------------------------------
 
   /** 0 static, 1 region, 2 and above rigid parts; one a vertex of the input. They do not change. */
   labels(): Uint32Array {
-    return this.#owned.call((raw) => Uint32Array.from(raw.labels()));
+    return this.owned.call((raw) => Uint32Array.from(raw.labels()));
   }
 
   /** Normalised arc length s of every vertex along the reference; 0 in the static part. */
   parameters(): Float32Array;
   parameters<T extends FloatArray>(out: T): T;
   parameters(out?: FloatArray): FloatArray {
-    return this.#into(out, 1, (raw) => raw.parameters());
+    return this.into(out, 1, (raw, result) => result.set(raw.parameters()));
   }
 
   /** The reference curve in space, three numbers a node. */
   reference(): Float64Array {
-    return this.#owned.call((raw) => raw.reference().slice());
+    return this.owned.call((raw) => raw.reference().slice());
   }
 
   /** The curve as it is bent now, as many nodes. */
   target(): Float64Array {
-    return this.#owned.call((raw) => raw.target().slice());
-  }
-
-  /** Positions in the pose, three numbers a vertex; a Float64Array for `out` gets them in double. */
-  positions(): Float32Array;
-  positions<T extends FloatArray>(out: T): T;
-  positions(out?: FloatArray): FloatArray {
-    return this.#into(out, 3, (raw) => (out instanceof Float64Array ? raw.positions64() : raw.positions()));
+    return this.owned.call((raw) => raw.target().slice());
   }
 
   /** Positions at rest, of added vertices too. */
   restPositions(): Float32Array;
   restPositions<T extends FloatArray>(out: T): T;
   restPositions(out?: FloatArray): FloatArray {
-    return this.#into(out, 3, (raw) => raw.rest());
-  }
-
-  /** Unit normals in the pose. */
-  normals(): Float32Array;
-  normals<T extends FloatArray>(out: T): T;
-  normals(out?: FloatArray): FloatArray {
-    return this.#into(out, 3, (raw) => raw.normals());
+    return this.into(out, 3, (raw, result) => result.set(raw.rest()));
   }
 
   /** Targets for any deformer over the same shape. `spacing`: of region vertices, in diagonals of the shape (0.05). Errors: invalid-option. */
@@ -251,7 +231,7 @@ export class Sketch {
     const place = option("options");
     const { spacing = 0.05 } = fields(place, options, ["spacing"]);
     const diagonals = notNegative(place.at("spacing"), spacing);
-    return this.#owned.call((raw) => {
+    return this.owned.call((raw) => {
       raw.seed(diagonals);
       return {
         fixed: Uint32Array.from(raw.seedFixed()), vertices: Uint32Array.from(raw.seedVertices()), targets: raw.seedTargets().slice(),
@@ -259,37 +239,13 @@ export class Sketch {
     });
   }
 
-  /** All that is needed to recompute the result without Pliant. */
-  state(): SketchState {
-    return this.#owned.call((raw) => {
-      const state = new this.#owned.core.raw.State();
-      try {
-        raw.save(state);
-        return toState(readTables(state)) as object as SketchState;
-      } finally {
-        state.delete();
-      }
-    });
-  }
-
-  /** Frees its memory. Every later call is a `disposed` error. */
-  dispose(): void {
-    this.#owned.dispose();
-  }
-
-  [disposeSymbol](): void {
-    this.dispose();
-  }
-
-  #into(out: FloatArray | undefined, width: number, read: (raw: RawSketch) => FloatArray): FloatArray {
-    const length = width * this.vertices;
-    const result = output(option("out"), out, length, () => new Float32Array(length));
-    this.#owned.call((raw) => result.set(read(raw)));
-    return result;
+  /** @internal */
+  protected override get optionalFields(): readonly string[] {
+    return ["handles", "sides", "joints", "twists", "scales", "rest", "parents"];
   }
 
   #accept({ doubles, integers }: Packed, work: PackedCall): void {
-    this.#owned.accept((raw) => work(raw, this.#owned.core.stage(doubles, integers)));
+    this.owned.accept((raw) => work(raw, this.owned.core.stage(doubles, integers)));
   }
 
   #profile(profile: Profile, work: PackedCall): void {

@@ -37,10 +37,7 @@ const Limb& SketchImpl::limb_of(Index point) const {
   return limbs.front();
 }
 
-namespace {
-
-/// A curve on the plane of a limb, in space.
-Points in_space(const Limb& limb, const PlaneCurve& curve) {
+Points SketchImpl::in_space(const Limb& limb, const PlaneCurve& curve) {
   Points points(3, curve.size());
   for (Index i = 0; i < curve.size(); ++i) {
     const Eigen::Vector2d xy = curve.nodes().col(i);
@@ -49,13 +46,6 @@ Points in_space(const Limb& limb, const PlaneCurve& curve) {
   return points;
 }
 
-void append(StateTable& table, const Points& points) {
-  table.data.insert(table.data.end(), points.data(), points.data() + points.size());
-}
-
-}  // namespace
-
-const Shape& Sketch::shape() const { return *impl_->shape; }
 const Refinement* Sketch::refinement() const { return impl_->refinement ? &*impl_->refinement : nullptr; }
 
 std::vector<Index> Sketch::labels() const {
@@ -82,10 +72,10 @@ std::vector<double> Sketch::parameters() const {
   return s;
 }
 
-Points Sketch::reference() const { return in_space(impl_->limbs.front(), impl_->curve()); }
+Points Sketch::reference() const { return SketchImpl::in_space(impl_->limbs.front(), impl_->curve()); }
 
 Points Sketch::target() const {
-  return in_space(impl_->limbs.front(), bent(impl_->curve(), impl_->whole_pose(), impl_->morph));
+  return SketchImpl::in_space(impl_->limbs.front(), bent(impl_->curve(), impl_->whole_pose(), impl_->morph));
 }
 
 Points Sketch::positions() const { return impl_->of_vertices(impl_->world); }
@@ -132,57 +122,6 @@ SketchSeed Sketch::seed(double spacing) const {
     seed.targets.col(static_cast<Index>(i)) = impl_->world.col(impl_->point_of(seed.vertices[i]));
   }
   return seed;
-}
-
-/// Beside the contract's tables: `normals`, the axes of `angles`, one a side; with a mirror `sides`
-/// (of every vertex: 0 drawn, 1 mirrored), and the curves of the second side follow those of the
-/// first. With twist or scale: `joints`, `twists` (right-handed about the joints' curve) and
-/// `scales`, applied before the bend; where nothing bends `angles` are the twists.
-State Sketch::save() const {
-  const Impl& impl = *impl_;
-  const SketchPose pose = impl.whole_pose();
-  const bool with_joints = pose.twists() || pose.scales();
-  StateTable labels{"labels", 1, true, {}}, s{"s", 1, false, {}}, angles{"angles", 1, false, {}},
-      reference{"reference", 3, false, {}}, target{"target", 3, false, {}}, normals{"normals", 3, false, {}},
-      sides{"sides", 1, true, {}}, joints{"joints", 3, false, {}}, twists{"twists", 1, false, {}},
-      scales{"scales", 1, false, {}};
-  for (const Index label : this->labels()) labels.data.push_back(label);
-  s.data = parameters();
-  for (Index v = 0; v < static_cast<Index>(s.data.size()); ++v) {
-    const Index p = impl.point_of(v);
-    const Limb& limb = impl.limb_of(p);
-    const bool mirrored = &limb != &impl.limbs.front();
-    const double twist = impl.morph * limb.twist()[p] * (mirrored ? -1.0 : 1.0);
-    angles.data.push_back(pose.bends() ? impl.morph * limb.bend()[p] : twist);
-    twists.data.push_back(twist);
-    scales.data.push_back(1.0 + impl.morph * (limb.scale()[p] - 1.0));
-    sides.data.push_back(mirrored);
-  }
-  for (const Limb& limb : impl.limbs) {
-    append(reference, in_space(limb, limb.reference()));
-    append(target, in_space(limb, bent(limb.reference(), pose, impl.morph)));
-    const Eigen::Matrix3d& axes = limb.camera().axes();
-    append(normals, axes.row(0).cross(axes.row(1)).transpose());
-    Points places = limb.joints();
-    for (auto place : places.colwise()) place = limb.camera().to_world(place);
-    append(joints, places);
-  }
-  State state;
-  for (StateTable* table : {&labels, &s, &angles, &reference, &target, &normals}) {
-    state.tables.push_back(std::move(*table));
-  }
-  if (impl.limbs.size() > 1) state.tables.push_back(std::move(sides));
-  if (with_joints) {
-    for (StateTable* table : {&joints, &twists, &scales}) state.tables.push_back(std::move(*table));
-  }
-  if (impl.refinement) {
-    append(state.add("rest", 3, false), rest().rightCols(impl.point_of_added.size()));
-    StateTable& parents = state.add("parents", 2, true);
-    for (const auto& [a, b] : impl.refinement->parents) {
-      parents.data.insert(parents.data.end(), {static_cast<double>(a), static_cast<double>(b)});
-    }
-  }
-  return state;
 }
 
 }  // namespace pliant

@@ -171,7 +171,7 @@ Status SketchImpl::find_joints() {
 
 // -- Choosing.
 
-Sketch::Sketch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Sketch::Sketch(std::unique_ptr<Impl> impl) : Deformation(impl->shape), impl_(std::move(impl)) {}
 Sketch::~Sketch() = default;
 
 Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shape, const Camera& camera,

@@ -14,7 +14,7 @@
 #include "pliant/sketch/pose.h"
 #include "pliant/sketch/refinement.h"
 #include "pliant/sketch/stroke.h"
-#include "pliant/solve/state.h"
+#include "pliant/solve/deformation.h"
 
 namespace pliant {
 
@@ -38,9 +38,9 @@ struct SketchSeed {
 
 /// A shape, a region chosen by a stroke, and its pose. Choosing (create, redraw) analyses the
 /// region once; every call that poses costs one solve with what was prepared and one pass over the
-/// region, and allocates little: cheap enough for every event of a pen. Vertex ids are those of the
-/// input.
-class Sketch {
+/// region, and allocates little: cheap enough for every event of a pen. `reset` keeps the region and
+/// smooth.
+class Sketch final : public Deformation {
  public:
   /// Filters the reference stroke, lays it on the plane through the first hit, finds the region and
   /// skins it. The pose is rest. Where the stroke starts is held, where it ends is moved.
@@ -49,9 +49,7 @@ class Sketch {
   /// off, mirrored regions that overlap, labels that do not fit).
   static Result<std::unique_ptr<Sketch>> create(std::shared_ptr<const Shape> shape, const Camera& camera,
                                                 const Stroke& reference, const SketchOptions& options = {});
-  ~Sketch();
-  Sketch(const Sketch&) = delete;
-  Sketch& operator=(const Sketch&) = delete;
+  ~Sketch() override;
 
   /// Another reference stroke over the same region, maybe seen from elsewhere; the pose is rest.
   /// Errors: those of create; nothing changes then.
@@ -79,8 +77,7 @@ class Sketch {
   bool smooth() const;
   /// Shows the way from rest (0) to the pose (1), section 6.1. Errors: invalid_option (outside).
   Status set_morph(double t);
-  /// Back to rest, bit for bit; the region and smooth stay.
-  void reset();
+  void reset() override;
 
   /// The pose without morph, and back: key poses. Spline controls are contained, and return to
   /// identity. Errors: invalid_option (another number of turns, not finite, scale not above 0;
@@ -98,7 +95,6 @@ class Sketch {
   const Refinement* refinement() const;
 
   // -- Results.
-  const Shape& shape() const;
   /// 0 static, 1 region, 2.. rigid parts; one a vertex of the input.
   std::vector<Index> labels() const;
   /// Normalised arc length of every vertex: as skinned, or smoothed; that of its virtual vertex in
@@ -107,17 +103,19 @@ class Sketch {
   /// Curves in space, 3 x nodes; the target's at the current morph.
   Points reference() const;
   Points target() const;
-  /// 3 x (n + added) positions, and at rest.
-  Points positions() const;
+  Points positions() const override;
+  Points normals() const override;
+  /// 3 x (n + added) positions at rest.
   Points rest() const;
-  /// 3 x (n + added) unit normals.
-  Points normals() const;
   /// Targets for another solver: rigid parts whole, of the region vertices no closer to one another
   /// than `spacing` diagonals (at least 0).
   SketchSeed seed(double spacing = 0.05) const;
-  /// The tables of the contract, section 3; see sketch/results.cpp for those of twist, scale and
-  /// mirror.
-  State save() const;
+  /// The tables of the contract, section 3; see sketch/state.cpp for those beside them.
+  State save() const override;
+  /// Needs `pose` and `morph`, over the `labels` and the `reference` of this sketch; spline controls
+  /// are in the pose, as set_pose has it. Vertices that a refinement added have to be those of now;
+  /// a state without any takes them back.
+  Status restore(const State& state) override;
 
  private:
   friend struct SketchImpl;

@@ -38,6 +38,8 @@ struct SketchImpl {
   Points of_vertices(const Points& of_points) const;
   /// Over points, the refinement's if there is one.
   Triangles triangles() const;
+  /// A curve on the plane of a limb, in space: 3 x nodes.
+  static Points in_space(const Limb& limb, const PlaneCurve& curve);
   /// The limb that moves a point, or the first.
   const Limb& limb_of(Index point) const;
 };

@@ -12,12 +12,10 @@ Status invalid_handle(std::string message) { return {ErrorCode::invalid_handle, 
 
 }  // namespace
 
-Deformer::Deformer(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
-
 Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> vertices, const char* argument,
                                                     std::vector<Index>* kept) const {
-  const Index size = shape_->input_size();
-  std::vector<bool> seen_vertex(size, false), seen_point(shape_->points().cols(), false);
+  const Index size = shape().input_size();
+  std::vector<bool> seen_vertex(size, false), seen_point(shape().points().cols(), false);
   std::vector<Index> points;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Index vertex = vertices[i];
@@ -30,7 +28,7 @@ Result<std::vector<Index>> Deformer::checked_points(std::span<const Index> verti
                             ", which is listed before; expected each vertex once");
     }
     seen_vertex[vertex] = true;
-    const Index point = shape_->point_of_vertex()[vertex];
+    const Index point = shape().point_of_vertex()[vertex];
     if (seen_point[point]) continue;
     seen_point[point] = true;
     points.push_back(point);
@@ -47,13 +45,13 @@ Handle* Deformer::find(HandleId id) {
 Status Deformer::set_fixed(std::span<const Index> vertices) {
   auto points = checked_points(vertices, "fixed", nullptr);
   if (!points.ok()) return points.status();
-  std::vector<bool> moved(shape_->points().cols(), false);
+  std::vector<bool> moved(shape().points().cols(), false);
   for (const Handle& handle : handles_) {
     for (Index point : handle.points) moved[point] = true;
   }
   for (Index point : *points) {
     if (!moved[point]) continue;
-    return invalid_handle("fixed holds vertex " + std::to_string(shape_->vertex_of_point()[point]) +
+    return invalid_handle("fixed holds vertex " + std::to_string(shape().vertex_of_point()[point]) +
                           ", which belongs to a handle; expected a vertex to be fixed or moved");
   }
   std::sort(points->begin(), points->end());
@@ -68,20 +66,20 @@ Result<HandleId> Deformer::add_handle(std::span<const Index> vertices) {
   std::vector<Index> kept;
   auto points = checked_points(vertices, "vertices", &kept);
   if (!points.ok()) return points.status();
-  std::vector<bool> taken(shape_->points().cols(), false);
+  std::vector<bool> taken(shape().points().cols(), false);
   for (Index point : fixed_points_) taken[point] = true;
   for (const Handle& handle : handles_) {
     for (Index point : handle.points) taken[point] = true;
   }
   for (Index point : *points) {
     if (!taken[point]) continue;
-    return invalid_handle("vertices holds vertex " + std::to_string(shape_->vertex_of_point()[point]) +
+    return invalid_handle("vertices holds vertex " + std::to_string(shape().vertex_of_point()[point]) +
                           ", which is fixed or belongs to another handle; expected a free vertex");
   }
   Handle handle;
   handle.id = next_id_++;
   handle.points = std::move(*points);
-  handle.rest = shape_->points()(Eigen::all, handle.points);
+  handle.rest = shape().points()(Eigen::all, handle.points);
   handle.targets = handle.rest;
   handles_.push_back(std::move(handle));
   columns_.push_back({static_cast<Index>(vertices.size()), std::move(kept)});
@@ -153,7 +151,7 @@ void Deformer::save_handles(State& state) const {
       targets{"handles/targets", 3, false, {}};
   for (const Handle& handle : handles_) {
     sizes.data.push_back(static_cast<double>(handle.points.size()));
-    for (Index point : handle.points) vertices.data.push_back(shape_->vertex_of_point()[point]);
+    for (Index point : handle.points) vertices.data.push_back(shape().vertex_of_point()[point]);
     targets.data.insert(targets.data.end(), handle.targets.data(), handle.targets.data() + handle.targets.size());
   }
   state.tables.push_back(std::move(sizes));
@@ -174,7 +172,7 @@ Status Deformer::restore_handles(const State& state) {
     }
     for (Handle& handle : handles_) {
       const auto same = [&](Index point, double vertex) {
-        return shape_->vertex_of_point()[point] == static_cast<Index>(vertex);
+        return shape().vertex_of_point()[point] == static_cast<Index>(vertex);
       };
       if (handle.points.size() != size ||
           !std::equal(handle.points.begin(), handle.points.end(), vertices->data.begin() + at, same)) {

@@ -1,15 +1,12 @@
 // THE interface: every method is a Deformer. Bindings, demo, command and benches know nothing else.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "pliant/core/status.h"
-#include "pliant/geometry/shape.h"
+#include "pliant/solve/deformation.h"
 #include "pliant/solve/handle.h"
-#include "pliant/solve/state.h"
 
 namespace pliant {
 
@@ -40,19 +37,14 @@ struct Counters {
   int analyses = 0;        ///< symbolic ones
 };
 
-/// A shape, constraints on it, and a method that finds the deformation. All vertex ids are those of
-/// the input; lengths are in its unit; point sets are 3 x n (z = 0 in the plane).
-class Deformer {
+/// A shape, constraints on it, and a method that finds the deformation. `reset` keeps handles and
+/// the fixed region, targets return to rest; `restore` brings targets back, too, of handles with
+/// the same vertices.
+class Deformer : public Deformation {
  public:
-  explicit Deformer(std::shared_ptr<const Shape> shape);
-  virtual ~Deformer() = default;
-  Deformer(const Deformer&) = delete;
-  Deformer& operator=(const Deformer&) = delete;
-
-  const Shape& shape() const { return *shape_; }
+  using Deformation::Deformation;
 
   // -- On grab: the pattern of the system changes, the next step factorises.
-  // ------------------------
   /// Replaces the fixed region (empty: none). Errors: invalid_handle (id out of range, duplicate,
   /// vertex of a handle). On error nothing changes.
   Status set_fixed(std::span<const Index> vertices);
@@ -61,13 +53,11 @@ class Deformer {
   Status remove_handle(HandleId id);
 
   // -- On drag: only the right-hand side changes.
-  // --------------------------------------------------
   Status move_handle(HandleId id, const Motion& motion);
   /// targets: 3 x |vertices of the handle|, in the order the handle was given.
   Status set_targets(HandleId id, const Points& targets);
 
   // -- Solving.
-  // ------------------------------------------------------------------------------------
   /// One iteration. tolerance: of the method's own stop test.
   /// Errors: not_solvable, too_large (on the first step of a grab); the state is then unchanged.
   Result<StepReport> step(double tolerance = 1e-6);
@@ -76,27 +66,12 @@ class Deformer {
   virtual Counters counters() const = 0;
 
   // -- Results.
-  // ------------------------------------------------------------------------------------
-  /// 3 x n deformed positions of the input's vertices.
-  Points positions() const { return shape_->scatter(point_positions()); }
-  /// 3 x n unit normals of the deformed shape.
-  Points normals() const { return shape_->scatter(point_normals()); }
+  Points positions() const final { return shape().scatter(point_positions()); }
+  Points normals() const final { return shape().scatter(point_normals()); }
   /// Deformed positions of the shape's points, 3 x p.
   virtual Points point_positions() const = 0;
   virtual Points point_normals() const = 0;
-  /// Any other points carried by the same deformation, 3 x q, in rest coordinates.
-  /// Errors: not_solvable where the method does not deform space.
-  virtual Result<Points> transform_points(const Points& points) const = 0;
-
-  // -- Life.
-  // ---------------------------------------------------------------------------------------
-  /// Back to rest, bit for bit; handles and the fixed region stay, targets return to rest.
-  void reset();
-  /// Everything needed to recompute the result without Pliant (contract, section 3).
-  virtual State save() const = 0;
-  /// Takes a deformation saved by the same method on the same shape. Targets of handles with the
-  /// same vertices are restored too. Errors: invalid_option (a field is missing or does not fit).
-  virtual Status restore(const State& state) = 0;
+  void reset() final;
 
   const std::vector<Index>& fixed_points() const { return fixed_points_; }
   const std::vector<Handle>& handles() const { return handles_; }
@@ -117,7 +92,6 @@ class Deformer {
                                             std::vector<Index>* kept) const;
   Handle* find(HandleId id);
 
-  std::shared_ptr<const Shape> shape_;
   std::vector<Index> fixed_points_;
   std::vector<Handle> handles_;
   /// How the columns of a caller's target list belong to the points of a handle.

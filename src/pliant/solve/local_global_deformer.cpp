@@ -299,12 +299,6 @@ Points LocalGlobalDeformer::point_positions() const { return core_->x; }
 
 Points LocalGlobalDeformer::point_normals() const { return pliant::point_normals(core_->x, shape().triangles()); }
 
-Result<Points> LocalGlobalDeformer::transform_points(const Points&) const {
-  return Status(ErrorCode::not_solvable,
-                "this method moves a surface, not the space around it; expected embedded-graph or "
-                "another method that carries points");
-}
-
 void LocalGlobalDeformer::save_result(State& state) const {
   const Points result = positions();
   state.add("result", 3, false).data.assign(result.data(), result.data() + result.size());

@@ -25,8 +25,6 @@ class LocalGlobalDeformer : public Deformer {
   Counters counters() const override;
   Points point_positions() const override;
   Points point_normals() const override;
-  /// Always not_solvable: these methods move a surface, not the space around it.
-  Result<Points> transform_points(const Points& points) const override;
   /// Needs `result`; what is local follows from it.
   Status restore(const State& state) override;
 
