@@ -52,6 +52,11 @@ const plain = {};
 const into = { into: 0 } as const;
 const ends = { ends: true } as const;
 
+/** What deformers and sketches have in common. */
+const deformation = {
+  positions: into, normals: into, transformPoints: { into: 1 }, state: plain, restore: plain, reset: plain, dispose: ends,
+} as const;
+
 export const surface = {
   Pliant: {
     constants: [],
@@ -68,9 +73,7 @@ export const surface = {
     constants: ["method"],
     calls: {
       setFixed: { ids: "fixed" }, addHandle: { ids: "vertices", gives: "Handle" }, setOptions: plain,
-      step: plain, solve: { options: 0 }, energy: plain, counters: plain,
-      positions: into, normals: into, field: plain, transformPoints: { into: 1 },
-      state: plain, restore: plain, reset: plain, dispose: ends,
+      step: plain, solve: { options: 0 }, energy: plain, counters: plain, field: plain, ...deformation,
     },
   },
   Handle: {
@@ -81,9 +84,8 @@ export const surface = {
     constants: [],
     calls: {
       redraw: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
-      setSmooth: plain, morph: plain, pose: plain, setPose: plain, reset: plain, refine: plain, unrefine: plain,
-      labels: plain, parameters: into, reference: plain, target: plain, positions: into, restPositions: into,
-      normals: into, seed: plain, state: plain, dispose: ends,
+      setSmooth: plain, morph: plain, pose: plain, setPose: plain, refine: plain, unrefine: plain, labels: plain,
+      parameters: into, reference: plain, target: plain, restPositions: into, seed: plain, ...deformation,
     },
   },
 } as const satisfies Rows;
