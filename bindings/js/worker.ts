@@ -23,7 +23,7 @@ export interface WorkerInitOptions extends InitOptions {
 
 let current: Promise<WorkerPliant> | undefined;
 
-/** Starts the worker; every call gives the same one until it is disposed. Errors: invalid-option. */
+/** Starts the worker; every call gives the same one until it is disposed. Errors: invalid-option, load-failed. */
 export async function init(options?: WorkerInitOptions): Promise<WorkerPliant> {
   const place = new Place("invalid-option", "options");
   const { inline, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline"], "option of init");
@@ -38,14 +38,27 @@ export async function init(options?: WorkerInitOptions): Promise<WorkerPliant> {
 
 async function start(inline: boolean, source: InitOptions): Promise<WorkerPliant> {
   const wasm = await travelling(source, inline);
-  const line = new Line(await launch(inline), () => (current = undefined));
+  const line = new Line(await launched(inline), () => (current = undefined));
   try {
     const reference = await line.call<Reference>({ target: 0, method: "init", args: [wasm] });
     return new WorkerPliant(line, reference);
   } catch (error) {
     line.close(new PliantError("disposed", "the worker did not start"));
-    throw error;
+    throw error instanceof PliantError && error.code === "crashed" ? notStarted(error) : error;
   }
+}
+
+/** A worker that a policy or the network may refuse. Errors: load-failed. */
+async function launched(inline: boolean): Promise<WorkerPort> {
+  try {
+    return await launch(inline);
+  } catch (error) {
+    throw notStarted(error as Error);
+  }
+}
+
+function notStarted(error: Error): PliantError {
+  return new PliantError("load-failed", `the worker cannot be started: ${error.message}`, { cause: error });
 }
 
 /** The source of the WASM in a form that a worker, which may have no address of its own, can use. */

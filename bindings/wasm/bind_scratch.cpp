@@ -1,9 +1,15 @@
-// What both modules share: the Scratch and the RawStatus.
+// What both modules share: the Scratch, the RawStatus, and how a call ends when memory does.
+#include <new>
+
 #include <emscripten/bind.h>
+#include <emscripten/emscripten.h>
 
 #include "pliant/io/memory.h"
 #include "scratch.h"
 #include "status_value.h"
+
+// Thrown past the call under way, as a trap is; bindings/js/boundary/core.ts knows it by its message.
+EM_JS(void, pliant_out_of_memory, (), { throw new WebAssembly.RuntimeError("out of memory"); });
 
 namespace pliant::bindings {
 
@@ -30,6 +36,8 @@ emscripten::val Scratch::bytes(std::uint32_t length) { return resized(bytes_, le
 EMSCRIPTEN_BINDINGS(pliant_scratch) {
   using emscripten::select_overload;
   using emscripten::val;
+
+  std::set_new_handler(pliant_out_of_memory);
 
   emscripten::value_object<StatusValue>("RawStatus")
       .field("code", &StatusValue::code)

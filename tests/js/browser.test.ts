@@ -102,6 +102,37 @@ describe("as it is", () => {
   });
 });
 
+describe("kept from loading", () => {
+  const main = `
+    import { init } from "./pliant.js";
+    import { init as initWorker } from "./worker.js";
+    const told = (promise) => promise.then(() => "started", ({ code, message }) => [code, message]);
+    window.results = Promise.all([told(init(/* options */)), told(initWorker(/* options */))]);`;
+  const page = '<!doctype html><title>Kept</title><script type="module" src="./main.js"></script>';
+  const found = async (policy: string, options = "") => {
+    const pages = { "/index.html": page, "/main.js": main.replaceAll("/* options */", options) };
+    const server = await serve(join(installed, "dist"), { "Content-Security-Policy": policy }, pages);
+    const outcome = await results(`${server.address}index.html`);
+    await server.close();
+    return outcome.found as unknown;
+  };
+  const failed = (part: string) => ["load-failed", expect.stringContaining(part)];
+
+  it("by the network", async () => {
+    const policy = "script-src 'self' 'wasm-unsafe-eval'";
+    expect(await found(policy, '{ wasmUrl: "gone.wasm" }')).toEqual([failed("gone.wasm answers 404"), failed("gone.wasm answers 404")]);
+  });
+
+  it("by a policy against WASM", async () => {
+    expect(await found("script-src 'self'")).toEqual([failed("Content Security Policy"), failed("Content Security Policy")]);
+  });
+
+  it("by a policy against workers", async () => {
+    const [page, worker] = (await found("script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'")) as unknown[];
+    expect([page, worker]).toEqual(["started", failed("the worker cannot be started")]);
+  });
+});
+
 describe("opened from a file", () => {
   const open = (name: string, page: string) => {
     const folder = application("files", { [`${name}.html`]: `<!doctype html><title>${name}</title>${page}` });

@@ -1,5 +1,7 @@
 // Every bad argument of the calls: its code, what the message names, and that the next correct call works.
 
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { afterEach, describe, expect, it } from "vitest";
 import { entries, errorOf, pliant, PliantError } from "./support/package.js";
 import { sheet, where } from "./support/shapes.js";
@@ -30,7 +32,14 @@ const restore = (state: unknown) => () => deformer.restore(state as never);
 const triangle = [0, 0, 0, 1, 0, 0, 0, 1, 0];
 const endless = function* () { for (let i = 0; ; ++i) yield i; };
 
+/** As an array is left that was transferred to a worker. */
+function gone<T extends Float32Array | Int32Array>(array: T): T {
+  structuredClone(array, { transfer: [array.buffer as ArrayBuffer] });
+  return array;
+}
+
 const shapes: Row[] = [
+  ["positions that are gone", make({ positions: gone(Float32Array.from(triangle)) }), "invalid-shape", "positions", "Float32Array", "gone"],
   ["nothing", make(undefined), "invalid-shape", "shape", "undefined", "object"],
   ["no positions", make({}), "invalid-shape", "positions", "undefined"],
   ["no vertices", make({ positions: [] }), "invalid-shape", "positions", "empty"],
@@ -116,6 +125,10 @@ const deformers: Row[] = [
 ];
 
 const handles: Row[] = [
+  ["a fixed region that is gone", fix(gone(Int32Array.of(1, 2))), "invalid-handle", "fixed", "Int32Array", "gone"],
+  ["a handle that is gone", grab(gone(Int32Array.of(1, 2))), "invalid-handle", "vertices", "Int32Array", "gone"],
+  ["targets that are gone", () => hand.moveTo(gone(new Float32Array(3 * right.length))), "invalid-handle", "targets", "gone"],
+  ["an output that is gone", () => deformer.positions(gone(new Float32Array(mesh.positions.length))), "invalid-option", "out", "gone"],
   ["fixed ids that are no list", fix(5), "invalid-handle", "fixed", "5", "vertex ids"],
   ["fixed ids as text", fix("12"), "invalid-handle", "fixed", '"12"'],
   ["a fixed id out of range", fix([121]), "invalid-handle", "fixed[0]", "121", "from 0 to 120"],
@@ -238,6 +251,15 @@ describe("after an error", () => {
     const triangles = Uint32Array.of(0, 1, 2, 0, 1, 600_000);
     for (let i = 0; i < 100; ++i) expect((await errorOf(make({ positions, triangles }))).code).toBe("invalid-shape");
     for (let i = 0; i < 200; ++i) expect((await errorOf(build({ cuts: [[{ all: true }, { vertices: [3] }]] }))).code).toBe("invalid-option");
+  });
+
+  it("docs/errors.md says what its code means", () => {
+    const folder = join(import.meta.dirname, "../..");
+    const source = readFileSync(join(folder, "bindings/js/boundary/errors.ts"), "utf8");
+    const codes = [...source.matchAll(/\| "([a-z-]+)"/g)].map(([, code]) => code);
+    const explained = [...readFileSync(join(folder, "docs/errors.md"), "utf8").matchAll(/^\| `([a-z-]+)` \|/gm)].map(([, code]) => code);
+    expect(codes.length).toBeGreaterThan(9);
+    expect(explained).toEqual(codes);
   });
 
   it("is a PliantError with a stable code", async () => {

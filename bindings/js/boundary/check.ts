@@ -31,6 +31,7 @@ function show(value: unknown): string {
   if (typeof value === "function") return "a function";
   if (typeof value !== "object" || value === null) return String(value);
   if (isList(value)) {
+    if (isGone(value)) return `a ${value.constructor.name} whose memory is gone`;
     const kind = Array.isArray(value) ? "an array" : `a ${value.constructor.name}`;
     return `${kind} of length ${value.length}`;
   }
@@ -42,6 +43,17 @@ export type List<T = unknown> = ArrayLike<T> & Iterable<T> & object;
 /** An array or a typed array. */
 export function isList(value: unknown): value is List {
   return Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
+}
+
+/** A typed array whose memory was transferred elsewhere or cut short: it has no length, and iterating it throws. */
+function isGone(value: List): boolean {
+  if (Array.isArray(value)) return false;
+  try {
+    (value as Uint8Array).values();
+    return false;
+  } catch {
+    return true;
+  }
 }
 
 export type Fields = Readonly<Record<string, unknown>>;
@@ -56,7 +68,7 @@ export function fields(place: Place, value: unknown, known: readonly string[], w
 }
 
 export function list(place: Place, value: unknown, expected = "an array"): List {
-  return isList(value) ? value : place.fail(value, expected);
+  return isList(value) && !isGone(value) ? value : place.fail(value, expected);
 }
 
 /** A list with something in it. */
@@ -144,7 +156,8 @@ export function points(place: Place, value: unknown, size: number): ArrayLike<nu
 
 /** Distinct vertex ids below `count`, in the order given. Reads no further than the first that is wrong. */
 export function vertexIds(place: Place, value: unknown, count: number): Int32Array {
-  if (typeof value !== "object" || value === null || !(Symbol.iterator in value)) place.fail(value, "vertex ids");
+  const iterable = typeof value === "object" && value !== null && Symbol.iterator in value;
+  if (!iterable || (isList(value) && isGone(value))) place.fail(value, "vertex ids");
   const seen = new Uint8Array(count);
   const ids: number[] = [];
   for (const id of value as Iterable<unknown>) {

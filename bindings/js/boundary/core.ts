@@ -6,18 +6,18 @@ import { PliantError, type ErrorCode } from "./errors.js";
 import type { RawModule, RawObject, RawScratch, RawStatus } from "./raw.js";
 
 /** Objects that were dropped without dispose(). */
-const dropped = new FinalizationRegistry<RawObject>((raw) => raw.delete());
+const dropped = new FinalizationRegistry<{ core: Core; raw: RawObject }>(({ core, raw }) => core.free(raw));
 
 /** `Symbol.dispose`, also where the language does not have it yet. */
 export const disposeSymbol: typeof Symbol.dispose = Symbol.dispose ?? Symbol.for("Symbol.dispose");
 
-/** A started module. */
+/** A started module. A call that traps ends it: no later call reaches it. */
 export class Core {
-  #trapped: PliantError | undefined;
+  #crash: PliantError | undefined;
   readonly #scratch: RawScratch;
 
-  /** `onTrap` is told when the module is of no use any more. */
-  constructor(readonly raw: RawModule, readonly onTrap: () => void) {
+  /** `onCrash` is told when the module is of no use any more. */
+  constructor(readonly raw: RawModule, readonly onCrash: () => void) {
     this.#scratch = new raw.Scratch();
   }
 
@@ -29,30 +29,62 @@ export class Core {
 
   /** The same for arrays the size of a shape: the memory is given back. */
   stageOnce<T>(doubles: ArrayLike<number>, integers: ArrayLike<number>, use: (scratch: RawScratch) => T): T {
-    return this.call(() => {
-      const scratch = new this.raw.Scratch();
-      try {
-        fill(scratch, doubles, integers);
-        return use(scratch);
-      } finally {
-        scratch.delete();
-      }
+    return this.using(() => new this.raw.Scratch(), (scratch) => {
+      fill(scratch, doubles, integers);
+      return use(scratch);
     });
   }
 
-  /** A call into WASM. A trap means that memory ran out; the module is then of no use any more. */
+  /** Makes an object for one use, and frees it. */
+  using<T extends RawObject, R>(make: () => T, use: (raw: T) => R): R {
+    const raw = this.call(make);
+    try {
+      return this.call(() => use(raw));
+    } finally {
+      this.free(raw);
+    }
+  }
+
+  /** A call into WASM. Errors: crashed, from the call that trapped on. */
   call<T>(work: () => T): T {
-    if (this.#trapped) throw this.#trapped;
+    if (this.#crash) throw this.#crash;
     try {
       return work();
     } catch (error) {
-      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-      const message = `the WASM module stopped (${error.message}), most likely out of memory; expected a smaller shape or graph. init() starts anew`;
-      this.#trapped = new PliantError("too-large", message, { cause: error });
-      this.onTrap();
-      throw this.#trapped;
+      throw this.#judged(error);
     }
   }
+
+  /** Frees an object; with the module its memory is gone already. */
+  free(raw: RawObject): void {
+    if (this.#crash) return;
+    try {
+      raw.delete();
+    } catch (error) {
+      const judged = this.#judged(error);
+      if (judged !== this.#crash) throw judged;
+    }
+  }
+
+  /** What an error out of a call means: a trap leaves the memory of the module in any state. */
+  #judged(error: unknown): unknown {
+    if (!isTrap(error) || this.#crash) return this.#crash ?? error;
+    const what = error.message === outOfMemory
+      ? "the WASM module ran out of memory and has stopped; expected a smaller shape or graph"
+      : `the WASM module has stopped (${error.message}), which is a defect of Pliant`;
+    this.#crash = new PliantError("crashed", `${what}. Its objects are lost; init() starts another`, { cause: error });
+    this.onCrash();
+    return this.#crash;
+  }
+}
+
+/** As bind_scratch.cpp says it. */
+const outOfMemory = "out of memory";
+
+/** Whether code of the module was cut off under way, by itself or for want of stack. */
+function isTrap(error: unknown): error is Error {
+  const noStack = error instanceof Error && /call stack|too much recursion/i.test(error.message);
+  return error instanceof WebAssembly.RuntimeError || noStack;
 }
 
 function fill(scratch: RawScratch, doubles: ArrayLike<number>, integers: ArrayLike<number>): void {
@@ -73,7 +105,7 @@ export class Owned<T extends RawObject> {
   /** Takes over `raw`. `owner`: the object of the package that stands for it, called `name` in messages. */
   constructor(readonly core: Core, raw: T, owner: object, readonly name: string) {
     this.#raw = raw;
-    dropped.register(owner, raw, this);
+    dropped.register(owner, { core, raw }, this);
   }
 
   /** A call on the object. Errors: disposed. */
@@ -91,7 +123,7 @@ export class Owned<T extends RawObject> {
   dispose(): void {
     if (!this.#raw) return;
     dropped.unregister(this);
-    this.#raw.delete();
+    this.core.free(this.#raw);
     this.#raw = undefined;
   }
 }
@@ -107,7 +139,7 @@ export function build<T extends RawObject>(core: Core, create: () => T, steps: (
     const raw = create();
     const status = steps(raw);
     if (status.code === "ok") return raw;
-    raw.delete();
+    core.free(raw);
     return accept(status) as never;
   });
 }

@@ -1,6 +1,6 @@
 // Errors of the package: one class, stable codes.
 
-/** The codes of {@link PliantError}; they do not change between versions. */
+/** The codes of {@link PliantError}; they do not change between versions. What each says stands in docs/errors.md. */
 export type ErrorCode =
   | "invalid-shape"
   | "invalid-option"
@@ -9,6 +9,7 @@ export type ErrorCode =
   | "parse-error"
   | "not-solvable"
   | "too-large"
+  | "load-failed"
   | "disposed"
   | "crashed"
   | "aborted";

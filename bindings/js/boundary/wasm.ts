@@ -36,19 +36,23 @@ export function readInitOptions(value: unknown): InitOptions {
   return options;
 }
 
-/** The module the options name, or the one `beside` finds. Errors: invalid-option. */
+/** The module the options name, or the one `beside` finds. Errors: load-failed, or invalid-option for bytes that are none. */
 export async function compile(options: InitOptions, beside: () => Promise<Binary>): Promise<WebAssembly.Module> {
-  if (options.wasmModule) return options.wasmModule;
-  const source = options.wasmUrl ? "wasmUrl" : options.wasmBinary ? "wasmBinary" : "the WASM of the package";
+  const { wasmUrl, wasmBinary, wasmModule } = options;
+  if (wasmModule) return wasmModule;
+  const source = wasmUrl ? `the WASM at ${absolute(wasmUrl).href}` : wasmBinary ? "wasmBinary" : "the WASM of the package";
+  let binary: Binary | undefined;
   try {
-    const binary = options.wasmUrl ? fetchBinary(absolute(options.wasmUrl)) : (options.wasmBinary ?? beside());
-    return await WebAssembly.compile(await binary);
+    binary = wasmBinary ?? (await (wasmUrl ? fetchBinary(absolute(wasmUrl)) : beside()));
+    return await WebAssembly.compile(binary);
   } catch (error) {
-    throw unusable(source, error);
+    // A policy against compiling refuses what is valid, too.
+    const wrong = wasmBinary && !WebAssembly.validate(wasmBinary);
+    throw wrong ? notOurs(source, error) : new PliantError("load-failed", `${source} cannot be loaded: ${reasonOf(error)}`, { cause: error });
   }
 }
 
-/** Starts emscripten's glue on a compiled module: it loads nothing by itself. Errors: invalid-option. */
+/** Starts emscripten's glue on a compiled module: it loads nothing by itself. Errors: invalid-option for a module of another origin. */
 export async function instantiate<T extends { Scratch?: unknown }>(factory: ModuleFactory<T>, module: WebAssembly.Module): Promise<T> {
   try {
     return await new Promise((resolve, reject) => {
@@ -59,13 +63,16 @@ export async function instantiate<T extends { Scratch?: unknown }>(factory: Modu
       factory({ instantiateWasm }).then((raw) => (raw.Scratch ? resolve(raw) : reject(new Error("it lacks what is needed"))), reject);
     });
   } catch (error) {
-    throw unusable("the WASM module", error);
+    throw notOurs("the WASM module", error);
   }
 }
 
-function unusable(source: string, error: unknown): PliantError {
-  const reason = error instanceof Error ? error.message : String(error);
-  return new PliantError("invalid-option", `${source} cannot be used: ${reason}; expected the pliant.wasm of this version`, { cause: error });
+function notOurs(source: string, error: unknown): PliantError {
+  return new PliantError("invalid-option", `${source} cannot be used: ${reasonOf(error)}; expected the pliant.wasm of this version`, { cause: error });
+}
+
+function reasonOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }
 
 export function absolute(url: string | URL): URL {

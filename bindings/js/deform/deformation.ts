@@ -114,14 +114,8 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
   }
 
   #withState<T>(use: (raw: R, state: RawState) => T): T {
-    return this.owned.call((raw) => {
-      const state = new this.owned.core.raw.State();
-      try {
-        return use(raw, state);
-      } finally {
-        state.delete();
-      }
-    });
+    const { core } = this.owned;
+    return this.owned.call((raw) => core.using(() => new core.raw.State(), (state) => use(raw, state)));
   }
 }
 

@@ -18,12 +18,12 @@ export const entries = (await import(/* @vite-ignore */ pathToFileURL(join(consu
 export const pliant = await entries.pliant.init();
 export const { PliantError } = entries.pliant;
 
-/** What an action throws or rejects with: a PliantError's code, message and cause, anything else as it is. */
-export async function errorOf(action: () => unknown): Promise<{ code: string; message: string; cause?: unknown }> {
+/** What an action throws or rejects with: a PliantError's code, message and cause, anything else as it is. `inline` has a class of its own. */
+export async function errorOf(action: () => unknown, ErrorClass = PliantError): Promise<{ code: string; message: string; cause?: unknown }> {
   try {
     await action();
   } catch (error) {
-    if (error instanceof PliantError) return { code: error.code, message: error.message, cause: error.cause };
+    if (error instanceof ErrorClass) return { code: error.code, message: error.message, cause: error.cause };
     throw error;
   }
   return { code: "none", message: "nothing was thrown" };
