@@ -24,8 +24,8 @@ const entries = {
 /** Bytes. `file`: with all it imports; `raw`: as it is; `gzip`: on the wire. */
 const budget = [
   { file: "pliant.wasm", raw: 610e3, gzip: 253e3 },
-  { file: "pliant.js", gzip: 23e3 },
-  { file: "inline.js", gzip: 281e3 },
+  { file: "pliant.js", gzip: 34e3 },
+  { file: "inline.js", gzip: 287e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */

@@ -5,6 +5,7 @@ import type { Core } from "./boundary/core.js";
 import { Deformer, readCallback, readSignal } from "./deform/deformer.js";
 import type { DeformerOptions, MethodName } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
+import { Edit } from "./edit/living.js";
 import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
 import { Shape, shapeFor, type ShapeInput } from "./shape/shape.js";
 import { Sketch, type SketchOptions } from "./deform/sketch.js";
@@ -36,6 +37,11 @@ export class Pliant {
   /** Compares a shape with deformed positions of its vertices. Errors: invalid-option. */
   measure(shape: Shape, positions: ArrayLike<number>, options?: MeasureOptions): Quality {
     return measure(this.#core, shape, positions, options);
+  }
+
+  /** A living edit of a shape, at rest: it carries out one document after another and keeps what it can. */
+  open(shape: Shape): Edit {
+    return new Edit(this.#core, shapeFor(this.#core, shape));
   }
 
   /** Runs an edit script. Errors: invalid-script, not-solvable, too-large, aborted. */

@@ -9,6 +9,7 @@ export type { Init } from "./init.js";
 export type { ArapOptions, DeformerOptions, EdgeMaterialOptions, EmbeddedGraphOptions, LiveOptions, MaterialField, MethodName } from "./methods/index.js";
 export { Pliant } from "./pliant.js";
 export type { MeasureOptions, Quality } from "./shape/quality.js";
+export { Edit } from "./edit/living.js";
 export type * from "./edit/types.js";
 export type { Selection } from "./shape/selection.js";
 export { Shape, type ShapeInput, type ShapeReport } from "./shape/shape.js";

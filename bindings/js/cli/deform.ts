@@ -5,8 +5,9 @@ import type { Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import { readMethod } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
-import { readScript, type ScriptPlan } from "../edit/read.js";
-import { type FinishedEdit, reportOf, runFrames } from "../edit/run.js";
+import type { ScriptPlan } from "../edit/plan.js";
+import { readScript } from "../edit/read.js";
+import { type FinishedEdit, reportOf, runFrames } from "../edit/frames.js";
 import type { EditProgress, EditReport } from "../edit/types.js";
 import { extentOf, type Shape } from "../shape/shape.js";
 import { Failure, onFile } from "./failure.js";
@@ -58,8 +59,9 @@ function checkCarry(from: string | undefined, to: string | undefined): void {
 /** What moves a surface only has no other points to carry. */
 function checkCarries(path: string, { keyframes: [{ steps }] }: ScriptPlan): void {
   for (const step of steps) {
-    const { method = "sketch" } = ("sketch" in step ? step.finish?.options : step.options) ?? {};
-    if (method !== "sketch" && readMethod(step.place, method).carries) continue;
+    const solved = step.kind === "place" ? undefined : step.kind === "sketch" ? step.finish?.options : step.options;
+    if (solved && readMethod(step.place, solved.method).carries) continue;
+    const method = solved?.method ?? step.kind;
     throw new Failure(`${path}: ${step.place.at("method").path} is "${method}", which moves the surface and not the space around it; --carry expects a method that deforms space`);
   }
 }

@@ -50,6 +50,15 @@ export interface Counters {
   analyses: number;
 }
 
+/** What a living edit knows of a deformer beside its calls; not for callers of the package. */
+export let drive: (deformer: Deformer) => {
+  readonly method: Method;
+  /** Whether nothing is left to do after a step. */
+  settled(step: Step): boolean;
+  /** Whether refinement has changed the model. */
+  refined(): boolean;
+};
+
 /**
  * A shape, constraints on it, and a method that finds the deformation. Made by `pliant.deformer`. `reset` keeps handles and
  * the fixed region, targets return to rest; `restore` brings targets back, too, of handles with the same vertices.
@@ -60,6 +69,10 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
   #options: Options;
   readonly #handles = new Map<number, Handle>();
   #refined = false;
+
+  static {
+    drive = (deformer) => ({ method: deformer.#method, settled: (step) => deformer.#settled(step), refined: () => deformer.#refined });
+  }
 
   /** @internal */
   constructor(core: Core, shape: Shape, options: DeformerOptions<M>) {
@@ -135,8 +148,7 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
       const step = this.#step(tolerance);
       if (step.accepted) ++iterations;
       onProgress?.(step);
-      const settled = step.converged || !step.accepted;
-      if (iterations >= maxIterations || (settled && !this.#refine())) return { ...step, iterations };
+      if (iterations >= maxIterations || this.#settled(step)) return { ...step, iterations };
     }
   }
 
@@ -146,6 +158,11 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     accept(status);
     const milliseconds = performance.now() - start;
     return { ...report, terms: this.#terms("value"), milliseconds };
+  }
+
+  /** Whether nothing is left to do after a step: the last refines the model, where the options ask for it. */
+  #settled({ converged, accepted }: Step): boolean {
+    return (converged || !accepted) && !this.#refine();
   }
 
   /** Whether refinement has added something to solve. */

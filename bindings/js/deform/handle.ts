@@ -5,7 +5,7 @@ import type { Owned } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { RawDeformer, RawScratch, RawStatus } from "../boundary/raw.js";
 import { insideOf, type Shape } from "../shape/shape.js";
-import { applyMatrix, packMotion, readTransform, type Transform } from "../shape/transform.js";
+import { applyMatrix, centroidOf, packMotion, readTransform, type Transform } from "../shape/transform.js";
 
 /** Made by `deformer.addHandle`. */
 export class Handle {
@@ -39,7 +39,7 @@ export class Handle {
       this.#setTargets(applyMatrix(motion.matrix, rest, dimension));
       return;
     }
-    const packed = packMotion(motion, centroid(rest, dimension));
+    const packed = packMotion(motion, centroidOf(rest, dimension));
     this.#call(packed, (raw, scratch) => raw.moveHandle(this.#id, scratch));
   }
 
@@ -80,11 +80,4 @@ export class Handle {
     this.#vertices.forEach((v, i) => own.set(rest.subarray(dimension * v, dimension * (v + 1)), dimension * i));
     return own;
   }
-}
-
-/** In space. */
-function centroid(points: Float64Array, dimension: number): number[] {
-  const sum = [0, 0, 0];
-  points.forEach((x, i) => (sum[i % dimension] += x));
-  return sum.map((x) => (x * dimension) / points.length);
 }

@@ -73,7 +73,7 @@ export interface SketchState {
   [field: string]: unknown;
 }
 
-const defaultMaxAdded = 1_000_000;
+export const defaultMaxAdded = 1_000_000;
 
 type PackedCall = (raw: RawSketch, scratch: RawScratch) => RawStatus;
 

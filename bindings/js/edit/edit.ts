@@ -3,7 +3,7 @@
 import type { Core } from "../boundary/core.js";
 import { extentOf, type Shape } from "../shape/shape.js";
 import { readScript } from "./read.js";
-import { runScript } from "./run.js";
+import { runScript } from "./frames.js";
 import type { EditOptions, EditResult, EditScript } from "./types.js";
 
 export function edit(core: Core, shape: Shape, script: EditScript, options: EditOptions): Promise<EditResult> {

@@ -3,8 +3,8 @@
 
 import { list, type Place } from "../boundary/check.js";
 import type { Transform } from "../shape/transform.js";
-import type { Goal, Keyframe, ScriptPlan, SolverPlan, StepPlan } from "./read.js";
-import { poseKeys, type SketchPlan } from "./sketch_read.js";
+import type { Goal, Keyframe, ScriptPlan, StepPlan } from "./plan.js";
+import { poseKeys } from "./sketch_read.js";
 
 type Json = Record<string, unknown>;
 
@@ -17,12 +17,17 @@ export function sameExceptGoals(place: Place, first: unknown, steps: unknown): v
 
 function sameStep(place: Place, a: Json, b: Json): void {
   if (b.method === "sketch") return sameSketch(place, a, b);
+  same(place.at("method"), a.method, b.method);
+  if (b.method === "place") return sameHandles(place.at("parts"), "parts", a.parts as Json[], b.parts as Json[]);
   if (b.drag !== undefined) place.at("drag").reject("is given in a keyframe; expected a drag only in steps");
-  for (const key of ["method", "options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
-  const [mine, theirs] = [a.handles ?? [], b.handles ?? []] as Json[][];
-  if (mine.length !== theirs.length) place.at("handles").reject(`has ${theirs.length} handles; expected ${mine.length} as in the first keyframe`);
+  for (const key of ["options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
+  sameHandles(place.at("handles"), "handles", (a.handles ?? []) as Json[], (b.handles ?? []) as Json[]);
+}
+
+function sameHandles(place: Place, what: string, mine: Json[], theirs: Json[]): void {
+  if (mine.length !== theirs.length) place.reject(`has ${theirs.length} ${what}; expected ${mine.length} as in the first keyframe`);
   theirs.forEach((handle, i) => {
-    const here = place.at("handles").item(i);
+    const here = place.item(i);
     for (const key of ["name", "select"]) same(here.at(key), mine[i][key], handle[key]);
     sameKind(here, mine[i], handle);
   });
@@ -69,9 +74,14 @@ function stepsAt(keyframes: Keyframe[], time: number): StepPlan[] {
 
 /** Of two steps that differ in goals or poses only. */
 function stepBetween(a: StepPlan, b: StepPlan, u: number): StepPlan {
-  if ("sketch" in a) return { ...a, toward: { pose: (b as SketchPlan).pose, share: u } };
-  const goals = (b as SolverPlan).handles.map((handle) => handle.goal);
-  return { ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, goals[h], u) })) };
+  if (a.kind === "sketch" && b.kind === "sketch") return { ...a, toward: { pose: b.pose, share: u } };
+  if (a.kind === "solver" && b.kind === "solver") {
+    return { ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.handles[h].goal, u) })) };
+  }
+  if (a.kind === "place" && b.kind === "place") {
+    return { ...a, parts: a.parts.map((part, p) => ({ ...part, goal: between(part.goal, b.parts[p].goal, u)! })) };
+  }
+  return b;
 }
 
 function between(a: Goal | undefined, b: Goal | undefined, u: number): Goal | undefined {

@@ -1,62 +1,21 @@
 // Reads an edit script: every key and value is checked, and an error names its place in the script.
 
 import { choice, fields, type Fields, filled, finite, integer, list, Place, points } from "../boundary/check.js";
-import { type DeformerOptions, type LiveOptions, type Method, type Options, readLive, readMethod, readSeed } from "../methods/index.js";
-import { type Extent, readSelection, type Select } from "../shape/selection.js";
+import { type Method, type Options, readLive, readMethod, readSeed } from "../methods/index.js";
+import { type Extent, readSelection } from "../shape/selection.js";
 import { readTransform, type Transform } from "../shape/transform.js";
 import { sameExceptGoals } from "./keyframes.js";
-import { readSketchStep, type SketchPlan } from "./sketch_read.js";
-import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";
+import type { DragPlan, Goal, HandlePlan, Keyframe, PlacePlan, RegionPlan, ScriptPlan, SolverPlan, StepPlan } from "./plan.js";
+import { defaultMaxAdded } from "../deform/sketch.js";
+import { readSketchStep } from "./sketch_read.js";
+import { maxCount, readDeformer, readSolve } from "./solve.js";
 
-/** Where a handle goes. */
-export type Goal = { move: Transform } | { targets: ArrayLike<number>; place: Place };
-
-export interface HandlePlan {
-  place: Place;
-  name: string | undefined;
-  select: Select;
-  goal: Goal | undefined;
-}
-
-export interface DragPlan {
-  /** By the position of the handle in the step. */
-  goals: { handle: number; goal: Goal }[];
-  /** Checked, and read again by the deformer. */
-  options: LiveOptions[keyof LiveOptions];
-  iterations: number;
-}
-
-export interface SolverPlan extends SolvePlan {
-  place: Place;
-  /** Checked, and read again by the deformer. */
-  options: DeformerOptions;
-  fixed: { place: Place; select: Select }[];
-  handles: HandlePlan[];
-  drag: DragPlan[];
-}
-
-export type StepPlan = SolverPlan | SketchPlan;
-
-export interface Keyframe {
-  time: number;
-  steps: StepPlan[];
-}
-
-export interface ScriptPlan {
-  /** One where the script has steps. */
-  keyframes: Keyframe[];
-  /** How many frames to make; undefined where the script has steps. */
-  frames: number | undefined;
-}
+const format = "pliant-edit";
 
 /** Errors: invalid-script. */
 export function readScript(value: unknown, extent: Extent): ScriptPlan {
+  const { script, context } = open(value, extent);
   const place = new Place("invalid-script", "");
-  const script = fields(new Place("invalid-script", "script"), value, ["format", "version", "steps", "keyframes", "frames", "seed"]);
-  choice(place.at("format"), script.format, ["pliant-edit"]);
-  if (script.version !== 1) place.at("version").fail(script.version, "1");
-  const seed = script.seed === undefined ? undefined : readSeed(place.at("seed"), script.seed);
-  const context = { extent, seed };
   if (script.keyframes === undefined) {
     if (script.frames !== undefined) place.at("frames").reject("is given without keyframes; expected both or neither");
     return { keyframes: [{ time: 0, steps: readSteps(place.at("steps"), script.steps, context) }], frames: undefined };
@@ -68,6 +27,27 @@ export function readScript(value: unknown, extent: Extent): ScriptPlan {
   };
 }
 
+/** The steps of a document of a living edit. `before`: plans of the document before it; steps that are the same objects keep them. Errors: invalid-script. */
+export function readDocument(value: unknown, extent: Extent, before: readonly StepPlan[], seedBefore: number | undefined): { steps: StepPlan[]; seed: number | undefined } {
+  const { script, context } = open(value, extent);
+  const place = new Place("invalid-script", "");
+  for (const key of ["keyframes", "frames"]) {
+    if (script[key] !== undefined) place.at(key).reject("is given to a living edit; expected steps, a document for each frame");
+  }
+  const known = context.seed === seedBefore ? before : [];
+  return { steps: readSteps(place.at("steps"), script.steps, context, known), seed: context.seed };
+}
+
+function open(value: unknown, extent: Extent): { script: Fields; context: Context } {
+  const place = new Place("invalid-script", "");
+  const script = fields(new Place("invalid-script", "script"), value, ["format", "version", "steps", "keyframes", "frames", "seed"]);
+  choice(place.at("format"), script.format, [format]);
+  if (script.version !== 1) place.at("version").fail(script.version, "1");
+  const seed = script.seed === undefined ? undefined : readSeed(place.at("seed"), script.seed);
+  return { script, context: { extent, seed } };
+}
+
+/** What a step is checked against. */
 interface Context {
   extent: Extent;
   seed: number | undefined;
@@ -90,32 +70,55 @@ function readKeyframes(place: Place, value: unknown, context: Context): Keyframe
   });
 }
 
-function readSteps(place: Place, value: unknown, context: Context): StepPlan[] {
-  return Array.from(filled(place, value, "steps"), (step, i) => readStep(place.item(i), step, context));
+function readSteps(place: Place, value: unknown, { extent, seed }: Context, before: readonly StepPlan[] = []): StepPlan[] {
+  let { count } = extent; // grows with what steps may add; whether it is there is seen at the selection
+  return Array.from(filled(place, value, "steps"), (step, i) => {
+    const old = before[i];
+    const plan = old && old.source === step ? old : readStep(place.item(i), step, { extent: { ...extent, count }, seed }, old);
+    if (plan.kind === "sketch" && plan.refine) count = Math.min(maxCount, count + (plan.refine.maxAdded ?? defaultMaxAdded));
+    return plan;
+  });
 }
 
-function readStep(place: Place, value: unknown, { extent, seed }: Context): StepPlan {
+function readStep(place: Place, value: unknown, { extent, seed }: Context, old: StepPlan | undefined): StepPlan {
   if (typeof value !== "object" || value === null) place.fail(value, "a step");
-  if ((value as Fields).method === "sketch") return readSketchStep(place, value, extent, seed);
+  const { method } = value as Fields;
+  if (method === "sketch") return readSketchStep(place, value, extent, seed);
+  if (method === "place") return readPlaceStep(place, value, extent);
+  return readSolverStep(place, value, { extent, seed }, old?.kind === "solver" ? old : undefined);
+}
+
+function readSolverStep(place: Place, value: object, { extent, seed }: Context, old: SolverPlan | undefined): SolverPlan {
   const method = readMethod(place.at("method"), (value as Fields).method);
   const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
   const options = readDeformer(place.at("options"), step.options, method, extent, seed);
-  const handles = readHandles(place.at("handles"), step.handles ?? [], extent);
+  const known = (old?.source ?? {}) as Fields;
+  const sameHandles = known.handles !== undefined && known.handles === step.handles;
+  const handles = old && sameHandles ? old.handles : readHandles(place.at("handles"), step.handles ?? [], extent);
+  const entries = old && sameHandles && known.method === step.method ? old.drag : [];
   const drag = Array.from(list(place.at("drag"), step.drag ?? []), (item, i) =>
-    readDrag(place.at("drag").item(i), item, method, handles, extent));
+    entries[i]?.source === item ? entries[i] : readDrag(place.at("drag").item(i), item, method, handles, extent));
   const loaded = [options, ...drag.map((entry) => entry.options)].some((given) => method.load?.(given as Options));
   if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
-  return {
-    place,
-    options,
-    fixed: Array.from(list(place.at("fixed"), step.fixed ?? [], "selections"), (item, i) => ({
-      place: place.at("fixed").item(i),
-      select: readSelection(place.at("fixed").item(i), item, extent),
-    })),
-    handles,
-    ...readSolve(place.at("solve"), step.solve),
-    drag,
-  };
+  const fixed = old && known.fixed !== undefined && known.fixed === step.fixed ? old.fixed : readFixed(place.at("fixed"), step.fixed ?? [], extent);
+  return { kind: "solver", place, source: value, options, fixed, handles, drag, ...readSolve(place.at("solve"), step.solve) };
+}
+
+function readFixed(place: Place, value: unknown, extent: Extent): RegionPlan[] {
+  return Array.from(list(place, value, "selections"), (item, i) => ({ place: place.item(i), select: readSelection(place.item(i), item, extent) }));
+}
+
+/** Vertices are put somewhere; nothing is solved. */
+function readPlaceStep(place: Place, value: object, extent: Extent): PlacePlan {
+  const step = fields(place, value, ["method", "parts"]);
+  const parts = Array.from(filled(place.at("parts"), step.parts, "parts"), (item, i) => {
+    const here = place.at("parts").item(i);
+    const part = fields(here, item, ["name", "select", "move", "targets"]);
+    const name = part.name === undefined ? undefined : readName(here.at("name"), part.name);
+    const goal = readGoal(here, part, extent) ?? here.reject("has neither move nor targets; expected one of them");
+    return { place: here, name, select: readSelection(here.at("select"), part.select, extent), goal };
+  });
+  return { kind: "place", place, source: value, parts };
 }
 
 function asksForNothing(step: Place, handles: unknown, { load }: Method): never {
@@ -165,5 +168,5 @@ function readDrag(place: Place, value: unknown, method: Method, handles: HandleP
     return { handle, goal: readGoal(here, entry, extent) ?? here.reject("has neither move nor targets; expected one of them") };
   });
   const { iterations = 1 } = drag;
-  return { goals, options, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };
+  return { source: value, goals, options, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };
 }

@@ -1,42 +1,12 @@
 // Reads the sketch steps of a script.
 
-import { fields, type Fields, finite, fraction, integer, notNegative, type Place } from "../boundary/check.js";
-import { type DeformerOptions, readMethod } from "../methods/index.js";
+import { fields, type Fields, finite, flag, fraction, integer, notNegative, type Place } from "../boundary/check.js";
+import { readMethod } from "../methods/index.js";
 import type { Extent } from "../shape/selection.js";
 import type { Camera, Profile, SketchOptions, Stroke } from "../deform/sketch.js";
 import { Packed, readDrawing } from "../deform/sketch_input.js";
-import { maxCount, readDeformer, readSolve, type SolvePlan } from "./solve.js";
-
-/** How a limb is posed. */
-export interface PosePlan {
-  bend: Stroke | undefined;
-  degrees: number | undefined;
-  scale: Profile | undefined;
-  turning: Profile | undefined;
-  twistSpeed: Profile | undefined;
-  morph: number;
-}
-
-/** The region of another stroke: drawn before this one, or that of the sketch step before. */
-export type RegionPlan = { camera: Camera; reference: Stroke } | "previous";
-
-/** A solver that goes on from the pose. */
-export interface FinishPlan extends SolvePlan {
-  options: DeformerOptions;
-  spacing: number | undefined;
-}
-
-export interface SketchPlan {
-  place: Place;
-  /** Checked, and read again by the sketch. */
-  sketch: SketchOptions;
-  region: RegionPlan | undefined;
-  pose: PosePlan;
-  /** Between keyframes: the pose to come, and the share of the way to it. */
-  toward: { pose: PosePlan; share: number } | undefined;
-  refine: { maxAdded?: number } | undefined;
-  finish: FinishPlan | undefined;
-}
+import type { DrawnRegion, FinishPlan, PosePlan, SketchPlan } from "./plan.js";
+import { maxCount, readDeformer, readSolve } from "./solve.js";
 
 /** What may differ between keyframes. */
 export const poseKeys = ["bend", "twist", "scale", "turning", "twistSpeed", "morph"] as const;
@@ -52,7 +22,7 @@ export function readSketchStep(place: Place, value: unknown, extent: Extent, see
   const refine = readRefine(place.at("refine"), step.refine ?? false);
   if (refine && step.finish !== undefined) place.reject("has refine and finish; expected one or the other");
   return {
-    place, region, pose, toward: undefined, refine,
+    kind: "sketch", place, source: value, region, pose, toward: undefined, refine,
     sketch: drawingOf(step),
     finish: step.finish === undefined ? undefined : readFinish(place.at("finish"), step.finish, extent, seed),
   };
@@ -71,27 +41,34 @@ function readPose(place: Place, step: Fields): PosePlan {
   }
   if (twistSpeed !== undefined && twist === undefined) place.at("twistSpeed").reject("is given without twist; expected both or neither");
   return {
-    bend: readPairs(place.at("bend"), bend, "target"),
+    bend: readBend(place.at("bend"), bend),
     degrees: twist === undefined ? undefined : readDegrees(place.at("twist"), twist),
-    scale: readPairs(place.at("scale"), scale, "profile"),
-    turning: readPairs(place.at("turning"), turning, "profile"),
-    twistSpeed: readPairs(place.at("twistSpeed"), twistSpeed, "profile"),
+    scale: readProfile(place.at("scale"), scale),
+    turning: readProfile(place.at("turning"), turning),
+    twistSpeed: readProfile(place.at("twistSpeed"), twistSpeed),
     morph: fraction(place.at("morph"), morph),
   };
 }
 
-function readPairs(place: Place, value: unknown, key: "target" | "profile"): Stroke | undefined {
+function readBend(place: Place, value: unknown): PosePlan["bend"] {
   if (value === undefined) return undefined;
-  const pairs = fields(place, value, [key])[key];
-  new Packed().pairs(place.at(key), pairs);
-  return pairs as Stroke;
+  const { target, unfinished = false } = fields(place, value, ["target", "unfinished"]);
+  new Packed().pairs(place.at("target"), target);
+  return { target: target as Stroke, unfinished: flag(place.at("unfinished"), unfinished) };
+}
+
+function readProfile(place: Place, value: unknown): Profile | undefined {
+  if (value === undefined) return undefined;
+  const { profile } = fields(place, value, ["profile"]);
+  new Packed().pairs(place.at("profile"), profile);
+  return profile as Profile;
 }
 
 function readDegrees(place: Place, value: unknown): number {
   return finite(place.at("degrees"), fields(place, value, ["degrees"]).degrees, "a finite number of degrees");
 }
 
-function readRegion(place: Place, { region }: Fields): RegionPlan {
+function readRegion(place: Place, { region }: Fields): DrawnRegion {
   if (region === "previous") return region;
   if (typeof region === "string") place.fail(region, '"previous", or camera and reference of another stroke');
   const { camera, reference } = fields(place, region, ["camera", "reference"]);

@@ -3,11 +3,7 @@
 import { fields, integer, type Place, positive } from "../boundary/check.js";
 import { type DeformerOptions, type Method, readOptions } from "../methods/index.js";
 import type { Extent } from "../shape/selection.js";
-
-export interface SolvePlan {
-  iterations: number;
-  tolerance: number;
-}
+import type { SolvePlan } from "./plan.js";
 
 export const maxCount = 2 ** 31 - 1;
 

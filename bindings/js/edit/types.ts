@@ -1,11 +1,13 @@
 // The edit script as callers write it, and what comes of it (contract, section 3).
 
 import type { FloatArray } from "../boundary/check.js";
+import type { Step } from "../deform/deformer.js";
 import type { LiveOptions, MethodName, MethodOptions } from "../methods/index.js";
 import type { Quality } from "../shape/quality.js";
 import type { Selection } from "../shape/selection.js";
 import type { ShapeReport } from "../shape/shape.js";
 import type { Camera, Mirror, Profile, Refinement, Stroke } from "../deform/sketch.js";
+import type { StageMoment } from "./stage.js";
 import type { State } from "../boundary/state.js";
 import type { Transform } from "../shape/transform.js";
 
@@ -13,14 +15,16 @@ export interface EditScript {
   format: "pliant-edit";
   version: 1;
   /** Each starts from the result of the one before. Either steps or keyframes. */
-  steps?: readonly (ScriptStep | ScriptSketch)[];
+  steps?: readonly ScriptAnyStep[];
   /** The same steps at several times, with other moves or poses. */
-  keyframes?: readonly { time: number; steps: readonly (ScriptStep | ScriptSketch)[] }[];
+  keyframes?: readonly { time: number; steps: readonly ScriptAnyStep[] }[];
   /** With keyframes: how many frames, evenly from the first time to the last. */
   frames?: number;
   /** 1. */
   seed?: number;
 }
+
+export type ScriptAnyStep = ScriptStep | ScriptSketch | ScriptPlace;
 
 /** A method with a solver, and its options. */
 export type ScriptMethod<M extends MethodName = MethodName> = { [N in M]: { method: N; options?: Omit<MethodOptions[N], "method"> } }[M];
@@ -46,7 +50,8 @@ export interface ScriptSketch {
   method: "sketch";
   camera: Camera;
   reference: Stroke;
-  bend?: { target: Stroke };
+  /** `unfinished`: see `Sketch.bend`. */
+  bend?: { target: Stroke; unfinished?: boolean };
   twist?: { degrees: number };
   /** Over the section's size at rest. */
   scale?: { profile: Profile };
@@ -65,6 +70,13 @@ export interface ScriptSketch {
   refine?: boolean | { maxAdded?: number };
   /** A solver goes on from the pose: the static part is fixed, rigid parts and region vertices `spacing` diagonals apart (0.05) are its handle. */
   finish?: ScriptMethod & { spacing?: number; solve?: { iterations?: number; tolerance?: number } };
+}
+
+/** Vertices are put somewhere, and nothing is solved. */
+export interface ScriptPlace {
+  method: "place";
+  /** Each has a move or targets. */
+  parts: readonly ScriptHandle[];
 }
 
 /** Where a handle goes; targets one a vertex, ascending vertex id. */
@@ -98,6 +110,66 @@ export interface EditProgress {
   steps: number;
   iteration: number;
   energy: number;
+}
+
+/** What a living edit carries out: an edit script with steps. */
+export type EditDocument = Omit<EditScript, "keyframes" | "frames" | "steps"> & { steps: readonly ScriptAnyStep[] };
+
+/** A document and how far it had been carried out, as `Edit.moment` gives it and `Edit.apply` takes it: plain data. */
+export interface EditMoment {
+  format: "pliant-moment";
+  version: 1;
+  /** None before the first document. */
+  document: EditDocument | undefined;
+  /** One a step whose result stood. */
+  stages: readonly StageMoment[];
+}
+
+export interface RunOptions {
+  milliseconds?: number;
+  iterations?: number;
+}
+
+export interface SettleOptions {
+  signal?: AbortSignal;
+  /** Called after every iteration. */
+  onProgress?: (progress: Omit<EditProgress, "frame" | "frames">) => void;
+}
+
+/** One iteration of the step at index `step`. */
+export interface EditStep extends Step {
+  step: number;
+}
+
+/** The last iteration of a run, and how many there were. */
+export interface EditRun extends EditStep {
+  iterations: number;
+  /** Nothing is left to do: each step's own test holds, nothing lowers its energy any more, or its iterations are used up. */
+  converged: boolean;
+}
+
+export interface FrameOptions extends RunOptions {
+  /** To be applied before. */
+  document?: EditDocument | EditMoment;
+  /** Adds the state; adds the limb of a sketch and what refinement has added. */
+  state?: boolean;
+  sketch?: boolean;
+}
+
+export interface EditFrame extends EditRun {
+  positions: Float32Array;
+  normals: Float32Array;
+  state?: State;
+  sketch?: SketchView | undefined;
+  refinement?: Refinement | undefined;
+}
+
+/** What is to be seen of a limb: see `labels`, `parameters`, `reference` and `target` of `Sketch`. */
+export interface SketchView {
+  labels: Uint32Array;
+  parameters: Float32Array;
+  reference: Float64Array;
+  target: Float64Array;
 }
 
 export interface EditResult {

@@ -1,6 +1,8 @@
 // Normals of a surface whose vertices are repeated along seams: vertices that share position and
 // normal at rest keep sharing it, so that smooth stays smooth and hard edges stay hard.
 
+import { toSpace } from "../boundary/check.js";
+
 /** Which vertices share a normal, and the triangles around them. */
 export class NormalGroups {
   readonly #group: Uint32Array;
@@ -51,4 +53,20 @@ export class NormalGroups {
     }
     return sums;
   }
+}
+
+/**
+ * Unit normals of a surface, three numbers a vertex: weighted by area, one for all vertices that share a place at rest;
+ * zero where no triangle has an area. `dimension` numbers a position; the plane's normals point along z.
+ */
+export function surfaceNormals<T extends Float32Array | Float64Array>(
+  positions: Float64Array, triangles: ArrayLike<number>, rest: Float64Array, dimension: number, out: T,
+): T {
+  const space = (points: Float64Array) => (dimension === 3 ? points : Float64Array.from(toSpace(points, 2)));
+  const [now, before] = [space(positions), space(rest)];
+  const groups = new NormalGroups(before, new Float64Array(before.length), triangles);
+  const normals = new Float32Array(now.length);
+  groups.compute(now, normals);
+  out.set(normals);
+  return out;
 }

@@ -1,7 +1,7 @@
 // SELECTION of the edit script: which vertices, by their positions at rest.
 
 import {
-  type Fields, fields, filled, finite, direction, notNegative, type Place, vector, vertexIds,
+  type Fields, fields, filled, finite, direction, integer, notNegative, type Place, vector, vertexIds,
 } from "../boundary/check.js";
 
 /** Vertices of a shape, by id or by where they are at rest (bounds included). */
@@ -35,7 +35,7 @@ const readers: Record<string, Reader> = {
     if (ids.length === 0) place.reject("is empty; expected vertex ids");
     return (rest) => {
       const mask = new Uint8Array(rest.length / dimension);
-      for (const id of ids) mask[id] = 1;
+      ids.forEach((id, i) => (id < mask.length ? (mask[id] = 1) : integer(place.item(i), id, 0, mask.length - 1, "a vertex id")));
       return mask;
     };
   },

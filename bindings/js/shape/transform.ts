@@ -65,6 +65,33 @@ export function packMotion(motion: Steps, center: number[]): number[] {
   return [scale, ...(scale === 1 ? [0, 0, 0] : center), ...axis, (degrees * Math.PI) / 180, ...about, ...translate];
 }
 
+/** Where a motion takes points, `dimension` numbers each; `center`: theirs, in space. */
+export function applyMotion(motion: Motion, points: Float64Array, center: number[], dimension: number): Float64Array {
+  if (motion.kind === "matrix") return applyMatrix(motion.matrix, points, dimension);
+  const { scale, axis, degrees, about = center, translate } = motion;
+  const length = Math.hypot(...axis);
+  const [sine, cosine] = [Math.sin((degrees * Math.PI) / 180), Math.cos((degrees * Math.PI) / 180)];
+  const [x, y, z] = axis.map((a) => a / length);
+  const v = 1 - cosine; // the rotation matrix of Rodrigues, row by row
+  const turn = [
+    [x * x * v + cosine, x * y * v - z * sine, x * z * v + y * sine],
+    [y * x * v + z * sine, y * y * v + cosine, y * z * v - x * sine],
+    [z * x * v - y * sine, z * y * v + x * sine, z * z * v + cosine],
+  ];
+  const row = (r: number) => turn[r].map((m) => m * scale);
+  const offset = (r: number) => about[r] + translate[r] + turn[r].reduce((sum, m, c) => sum + m * ((1 - scale) * center[c] - about[c]), 0);
+  const columns = [0, 1, 2].map((c) => [0, 1, 2].map((r) => row(r)[c]));
+  const matrix = [...columns.flatMap((column) => [...column, 0]), offset(0), offset(1), offset(2), 1];
+  return applyMatrix(matrix, points, dimension);
+}
+
+/** The mean of points, in space. */
+export function centroidOf(points: Float64Array, dimension: number): number[] {
+  const sum = [0, 0, 0];
+  points.forEach((x, i) => (sum[i % dimension] += x));
+  return sum.map((x) => (x * dimension) / points.length);
+}
+
 /** Where an affine matrix takes points, `dimension` numbers each. */
 export function applyMatrix(m: number[], points: Float64Array, dimension: number): Float64Array {
   return points.map((_, i) => {

@@ -1,0 +1,321 @@
+// The living edit: an immutable document, and what stands of it. The one interpreter of edit scripts.
+
+import { type Fields, fields, flag, type FloatArray, integer, list, notNegative, output, Place } from "../boundary/check.js";
+import { type Core, disposeSymbol } from "../boundary/core.js";
+import { PliantError } from "../boundary/errors.js";
+import type { HandleState, State } from "../boundary/state.js";
+import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../deform/deformer.js";
+import type { Refinement } from "../deform/sketch.js";
+import { surfaceNormals } from "../shape/normals.js";
+import { measure } from "../shape/quality.js";
+import { extentOf, insideOf, Shape } from "../shape/shape.js";
+import { extended, rows } from "./growth.js";
+import { located } from "./located.js";
+import type { StepPlan } from "./plan.js";
+import { readDocument } from "./read.js";
+import type { Rest } from "./rest.js";
+import { checkedParts, checkedRoles } from "./roles.js";
+import { same } from "./same.js";
+import { SketchStage } from "./sketch_stage.js";
+import type { StageMoment } from "./stage.js";
+import { Stages } from "./stages.js";
+import type { EditDocument, EditFrame, EditMoment, EditQuality, EditReport, EditRun, EditStep, FrameOptions, RunOptions, SettleOptions, SketchView } from "./types.js";
+
+const momentFormat = "pliant-moment";
+const place = new Place("invalid-option", "options");
+const runKeys = ["milliseconds", "iterations"];
+
+/** What has been asked for. */
+interface Asked {
+  document: EditDocument | undefined;
+  plans: readonly StepPlan[];
+  seed: number | undefined;
+}
+
+const nothing: Asked = { document: undefined, plans: [], seed: undefined };
+
+/**
+ * Made by `pliant.open`. A document is a value: hand over another one to get another result. What differs from
+ * what stands decides what it costs; the newest document wins over one that has not been carried out yet.
+ */
+export class Edit {
+  readonly shape: Shape;
+  readonly #core: Core;
+  #stages: Stages | undefined;
+  #asked = nothing;
+
+  /** @internal */
+  constructor(core: Core, shape: Shape) {
+    this.#core = core;
+    this.shape = shape;
+    this.#stages = new Stages(core, shape);
+  }
+
+  get #live(): Stages {
+    if (this.#stages) return this.#stages;
+    throw new PliantError("disposed", "this edit is disposed; expected a live one");
+  }
+
+  // -- What is asked for. ---------------------------------------------------------------------------
+
+  /**
+   * The document to carry out; or a moment, which comes back at once and exactly. Errors: invalid-script, by all that can
+   * be told without solving; then nothing has changed.
+   */
+  apply(document: EditDocument | EditMoment): void {
+    const stages = this.#live;
+    if (isMoment(document)) return this.#goTo(document);
+    if (same(document, this.#asked.document)) return;
+    const asked = this.#read(document);
+    judge(asked.plans[0], stages.input);
+    this.#asked = asked;
+  }
+
+  /** Steps that are read already. @internal */
+  applyPlans(plans: readonly StepPlan[]): void {
+    judge(plans[0], this.#live.input);
+    this.#asked = { document: undefined, plans, seed: undefined };
+  }
+
+  /** Back to rest, with everything that is built; `run` carries the document out again from there. */
+  reset(): void {
+    this.#live.reset();
+  }
+
+  /** The document and how far it has been carried out: plain data. Moments of one edit share what has not changed between them. */
+  moment(): EditMoment {
+    const stages = this.#live.shown.map((stage) => stage.moment());
+    return { format: momentFormat, version: 1, document: this.#asked.document, stages };
+  }
+
+  #read(document: EditDocument): Asked {
+    const { plans: before, seed: seedBefore } = this.#asked;
+    const { steps, seed } = readDocument(document, extentOf(this.shape), before, seedBefore);
+    return { document, plans: steps, seed };
+  }
+
+  #goTo(moment: EditMoment): void {
+    const { asked, stood, stages } = this.#readMoment(moment);
+    const before = this.#live.shown.map((stage) => ({ plan: stage.standsFor, moment: stage.moment() }));
+    try {
+      this.#live.bringBack(stages.map((stage, at) => ({ plan: stood[at], moment: stage })));
+    } catch (error) {
+      this.#live.bringBack(before);
+      throw error;
+    }
+    this.#asked = asked;
+  }
+
+  #readMoment(value: EditMoment): { asked: Asked; stood: readonly StepPlan[]; stages: readonly StageMoment[] } {
+    const here = new Place("invalid-script", "moment");
+    const { version, document, stages } = fields(here, value, ["format", "version", "document", "stages"]) as Partial<EditMoment>;
+    if (version !== 1) here.at("version").fail(version, "1");
+    const moments = Array.from(list(here.at("stages"), stages), (stage, i) => readStage(here.at("stages").item(i), stage));
+    if (document === undefined && moments.length === 0) return { asked: nothing, stood: [], stages: moments };
+    const asked = this.#read(document as EditDocument);
+    const sources = moments.map(({ source }) => source);
+    if (sources.every((source, at) => same(source, asked.plans[at]?.source))) return { asked, stood: asked.plans, stages: moments };
+    const stood = this.#read({ ...(document as EditDocument), steps: sources as EditDocument["steps"] }).plans;
+    return { asked, stood, stages: moments };
+  }
+
+  // -- Carrying it out. -----------------------------------------------------------------------------
+
+  /**
+   * Solves on: for so long, so many iterations, or to the end. At least one iteration, and no more than one beyond the
+   * time. Errors: invalid-script for what only the result of earlier steps brings out, not-solvable, too-large; the last
+   * good result stays.
+   */
+  run(options: RunOptions = {}): EditRun {
+    return this.#run(readRun(fields(place, options, runKeys)));
+  }
+
+  #run({ milliseconds, iterations }: Required<RunOptions>): EditRun {
+    const begin = performance.now();
+    const late = (more = 0) => performance.now() - begin + more > milliseconds;
+    let [last, count]: [EditStep | undefined, number] = [undefined, 0];
+    for (let more = true; more && count < iterations; ) {
+      const step = this.#advance(late);
+      if (step) [last, count] = [step, count + 1];
+      more = step !== undefined && !late(step.milliseconds);
+    }
+    const converged = this.#live.done(this.#asked.plans);
+    return { ...(last ?? this.#standing()), iterations: count, converged, milliseconds: performance.now() - begin };
+  }
+
+  /** One iteration of the first step that has something to do; undefined where none has, or where building it took all the time. */
+  #advance(late: () => boolean): EditStep | undefined {
+    const stages = this.#live;
+    for (const [at, plan] of this.#asked.plans.entries()) {
+      const { stage, changed } = located(plan.place, () => stages.prepared(at, plan));
+      if (stage.done) continue;
+      if (changed && late()) return undefined;
+      const step = located(plan.place, () => stage.advance());
+      stages.show(at);
+      return { ...step, step: at };
+    }
+    stages.end(this.#asked.plans.length);
+    return undefined;
+  }
+
+  /** Where nothing is left to do. */
+  #standing(): EditStep {
+    const { shown, last } = this.#live;
+    const { total = 0, ...terms } = last?.energy() ?? {};
+    return { step: Math.max(0, shown.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0 };
+  }
+
+  /** Runs to the end and lets the event loop turn after each iteration. Errors: as `run`, aborted. */
+  async settle(options: SettleOptions = {}): Promise<EditRun> {
+    const given = fields(place, options, ["signal", "onProgress"]);
+    const signal = readSignal(place.at("signal"), given.signal);
+    const onProgress = readCallback<SettleOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
+    for (;;) {
+      await eventLoopTurn();
+      throwIfAborted(signal);
+      const run = this.run({ iterations: 1 });
+      if (run.iterations === 0) return run;
+      onProgress?.({ step: run.step, steps: this.#asked.plans.length, iteration: run.iteration, energy: run.energy });
+    }
+  }
+
+  /** What a picture of an animation takes, in one call: `apply` where a document is given, `run`, positions and normals. */
+  frame(options: FrameOptions = {}): EditFrame {
+    const { document, state = false, sketch = false, ...run } = fields(place, options, [...runKeys, "document", "state", "sketch"]);
+    const wanted = { state: flag(place.at("state"), state), sketch: flag(place.at("sketch"), sketch) };
+    const limits = readRun(run);
+    if (document !== undefined) this.apply(document as EditDocument);
+    const done = this.#run(limits);
+    return {
+      ...done, positions: this.positions(), normals: this.normals(),
+      ...(wanted.state ? { state: this.state() } : {}),
+      ...(wanted.sketch ? { sketch: this.sketch(), refinement: this.refinement() } : {}),
+    };
+  }
+
+  // -- Results. -------------------------------------------------------------------------------------
+
+  /** Vertices of the result: the input's, then those that refinement added. */
+  get vertices(): number {
+    return this.#live.last?.vertices ?? this.shape.report.vertices;
+  }
+
+  /** `shape.dimension` numbers a vertex; a Float64Array for `out` gets them in double. */
+  positions(): Float32Array;
+  positions<T extends FloatArray>(out: T): T;
+  positions(out?: FloatArray): FloatArray {
+    const result = this.#output(out, this.shape.dimension);
+    const { last } = this.#live;
+    if (last) return last.positions(result);
+    result.set(insideOf(this.shape).rest);
+    return result;
+  }
+
+  /** Unit normals, three numbers a vertex. */
+  normals(): Float32Array;
+  normals<T extends FloatArray>(out: T): T;
+  normals(out?: FloatArray): FloatArray {
+    const result = this.#output(out, 3);
+    const { last, input } = this.#live;
+    return last ? last.normals(result) : surfaceNormals(input.positions, input.triangles, input.positions, input.dimension, result);
+  }
+
+  #output(out: FloatArray | undefined, width: number): FloatArray {
+    const length = width * this.vertices;
+    return output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
+  }
+
+  /** Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable where a step moves the surface alone. @internal */
+  carry(points: Float64Array): void {
+    for (const stage of this.#live.shown) stage.carry(points);
+  }
+
+  /** Of the last step, as in `EditResult`. */
+  state(): State {
+    const { last } = this.#live;
+    if (!last) return { handles: [] };
+    const { growth } = last;
+    if (!growth) return last.state();
+    // Where all added vertices come from, and where they are at rest in their step.
+    const count = this.shape.report.vertices;
+    const rest = extended(last.restPositions, 3, growth.parents.subarray(2 * (last.restPositions.length / 3 - count)));
+    return { ...last.state(), parents: rows(growth.parents, 2), rest: rows(rest.subarray(3 * count), 3) };
+  }
+
+  /** The limb of the last step, where that is a sketch. */
+  sketch(): SketchView | undefined {
+    const { last } = this.#live;
+    return last instanceof SketchStage ? last.view() : undefined;
+  }
+
+  /** What steps have added to the input in all. */
+  refinement(): Refinement | undefined {
+    return this.#live.last?.growth;
+  }
+
+  /** What the steps have done: their costs count from `open` on, their iterations since they last began anew. */
+  report(): EditReport {
+    const steps = this.#live.shown.map((stage) => stage.report());
+    return { format: "pliant-report", version: 1, shape: { ...this.shape.report }, steps, quality: this.#quality() };
+  }
+
+  #quality(): EditQuality {
+    const positions = this.positions(new Float64Array(this.shape.dimension * this.vertices));
+    const growth = this.refinement();
+    const { rest } = insideOf(this.shape);
+    const measured = growth ? new Shape(this.#core, { positions: extended(rest, 3, growth.parents), triangles: growth.triangles }) : this.shape;
+    try {
+      const constraintError = errorOf(this.#live.last?.state().handles ?? [], positions, this.shape);
+      return { ...measure(this.#core, measured, positions), constraintError };
+    } finally {
+      if (measured !== this.shape) measured.dispose();
+    }
+  }
+
+  // -- Life. ----------------------------------------------------------------------------------------
+
+  /** Frees everything that was built; the shape stays. Every later call is a `disposed` error. */
+  dispose(): void {
+    this.#stages?.end(0);
+    this.#stages = undefined;
+  }
+
+  [disposeSymbol](): void {
+    this.dispose();
+  }
+}
+
+function readRun({ milliseconds, iterations }: Fields): Required<RunOptions> {
+  return {
+    milliseconds: milliseconds === undefined ? Infinity : notNegative(place.at("milliseconds"), milliseconds),
+    iterations: iterations === undefined ? Infinity : integer(place.at("iterations"), iterations, 1, Number.MAX_SAFE_INTEGER),
+  };
+}
+
+function isMoment(value: unknown): value is EditMoment {
+  return typeof value === "object" && value !== null && (value as Fields).format === momentFormat;
+}
+
+function readStage(here: Place, value: unknown): StageMoment {
+  const { source, progress, shown, state } = fields(here, value, ["source", "progress", "shown", "state"]);
+  list(here.at("progress"), progress);
+  return { source, progress, ...(shown === undefined ? {} : { shown }), ...(state === undefined ? {} : { state }) } as StageMoment;
+}
+
+/** What can be told of the first step without building it. */
+function judge(plan: StepPlan, rest: Rest): void {
+  if (plan.kind === "solver") checkedRoles(plan, rest);
+  if (plan.kind === "place") checkedParts(plan, rest);
+}
+
+/** Largest distance of a handle's vertex from its target over the diagonal. */
+function errorOf(handles: HandleState[], positions: Float64Array, { dimension, diagonal }: Shape): number {
+  let largest = 0;
+  for (const { vertices, targets } of handles) {
+    vertices.forEach((vertex, i) => {
+      const apart = targets[i].slice(0, dimension).map((x, axis) => x - positions[vertex * dimension + axis]);
+      largest = Math.max(largest, Math.hypot(...apart));
+    });
+  }
+  return diagonal > 0 ? largest / diagonal : largest;
+}

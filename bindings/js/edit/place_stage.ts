@@ -1,0 +1,116 @@
+// A step that puts vertices somewhere and solves nothing.
+
+import type { FloatArray } from "../boundary/check.js";
+import { PliantError } from "../boundary/errors.js";
+import type { State } from "../boundary/state.js";
+import type { Step } from "../deform/deformer.js";
+import { surfaceNormals } from "../shape/normals.js";
+import { rows } from "./growth.js";
+import type { PlacePlan } from "./plan.js";
+import type { Rest } from "./rest.js";
+import { checkedParts, placed, sameGoal } from "./roles.js";
+import { same } from "./same.js";
+import { Stage, type StageMoment } from "./stage.js";
+import type { StepReport } from "./types.js";
+
+export class PlaceStage extends Stage<PlacePlan> {
+  readonly method = "place";
+  readonly added = undefined;
+  #parts: Int32Array[];
+  #positions: Float64Array;
+  #done = false;
+  #ms = 0;
+
+  constructor(plan: PlacePlan, rest: Rest) {
+    super(plan, rest);
+    this.#parts = checkedParts(plan, rest);
+    this.#positions = rest.positions;
+  }
+
+  prepare(plan: PlacePlan, rest: Rest): boolean {
+    if (plan === this.plan && rest === this.rest) return false;
+    const parts = checkedParts(plan, rest);
+    const stays = rest === this.rest && same(parts, this.#parts) && plan.parts.every(({ goal }, i) => sameGoal(goal, this.plan.parts[i].goal));
+    if (stays) {
+      this.plan = plan;
+      return false;
+    }
+    if (rest !== this.rest) this.#positions = rest.positions;
+    [this.plan, this.rest, this.#parts, this.#done] = [plan, rest, parts, false];
+    this.changed();
+    return true;
+  }
+
+  get done(): boolean {
+    return this.#done;
+  }
+
+  advance(): Step {
+    const begin = performance.now();
+    const { positions, dimension } = this.rest;
+    const result = positions.slice();
+    this.plan.parts.forEach((part, i) => {
+      const ids = this.#parts[i];
+      const targets = placed(part, gathered(positions, ids, dimension), dimension);
+      ids.forEach((id, at) => {
+        for (let k = 0; k < dimension; ++k) result[dimension * id + k] = targets[dimension * at + k];
+      });
+    });
+    this.#positions = result;
+    this.#done = true;
+    this.#ms = performance.now() - begin;
+    this.changed();
+    return { iteration: 1, energy: 0, terms: {}, converged: true, accepted: true, milliseconds: this.#ms };
+  }
+
+  reset(): void {
+    this.#positions = this.rest.positions;
+    this.#done = false;
+    this.changed();
+  }
+
+  positions<T extends FloatArray>(out: T): T {
+    out.set(this.#positions);
+    return out;
+  }
+
+  normals<T extends FloatArray>(out: T): T {
+    const { triangles, dimension, positions } = this.rest;
+    return surfaceNormals(this.#positions, triangles, positions, dimension, out);
+  }
+
+  state(): State {
+    const { dimension } = this.rest;
+    const points = (ids: Int32Array) => rows(gathered(this.#positions, ids, dimension), dimension).map((p) => (dimension === 2 ? [...p, 0] : p));
+    return { handles: this.#parts.map((ids) => ({ vertices: Array.from(ids), targets: points(ids) })) };
+  }
+
+  report(): StepReport {
+    const iterations = this.#done ? [{ energy: 0, ms: this.#ms }] : [];
+    return { method: "place", unknowns: 0, factorizations: 0, analyses: 0, setupMs: 0, start: 0, iterations, converged: this.#done, energy: { total: 0 } };
+  }
+
+  carry(): never {
+    throw new PliantError("not-solvable", "place moves vertices, not the space around them; expected embedded-graph or another method that carries points");
+  }
+
+  dispose(): void {
+    this.changed();
+  }
+
+  protected save(): Omit<StageMoment, "source"> {
+    return { shown: this.#done, progress: [] };
+  }
+
+  protected bringBack(plan: PlacePlan, rest: Rest, { shown }: StageMoment): void {
+    this.prepare(plan, rest);
+    if (shown) this.advance();
+  }
+}
+
+/** Of some vertices, `width` numbers each. */
+function gathered(values: Float64Array, ids: Int32Array, width: number): Float64Array {
+  const own = new Float64Array(width * ids.length);
+  ids.forEach((id, i) => own.set(values.subarray(width * id, width * (id + 1)), width * i));
+  return own;
+}

@@ -1,0 +1,138 @@
+// One step of a living edit: a rest shape, what the step builds over it, and what has come of it so far.
+
+import type { FloatArray } from "../boundary/check.js";
+import type { State } from "../boundary/state.js";
+import type { Step } from "../deform/deformer.js";
+import type { Refinement } from "../deform/sketch.js";
+import { extendedLabels, grown } from "./growth.js";
+import type { StepPlan } from "./plan.js";
+import { Rest } from "./rest.js";
+import { shared } from "./same.js";
+import type { Progress } from "./solving.js";
+import type { StepReport } from "./types.js";
+
+/** What a stage was at some time: plain data, which takes it back there. */
+export interface StageMoment {
+  /** The step it stood for. */
+  source: unknown;
+  /** Of its solver. */
+  progress: Progress[];
+  /** Whether a pose or a placement had been shown. */
+  shown?: boolean;
+  /** Of its solver; absent where the step alone says what comes of it. */
+  state?: State;
+}
+
+export abstract class Stage<P extends StepPlan = StepPlan> {
+  #next: Rest | undefined;
+  #saved: StageMoment | undefined;
+  /** Whether `#saved` is of now. */
+  #stands = false;
+
+  /** What it stands for and over; both change in `prepare` alone. */
+  constructor(protected plan: P, protected rest: Rest) {}
+
+  abstract readonly method: string;
+
+  /** Takes the step over a rest shape: keeps what it can and does nothing that takes an iteration. Whether anything is different. Errors: then nothing is. */
+  abstract prepare(plan: P, rest: Rest): boolean;
+  /** Nothing is left to do. */
+  abstract readonly done: boolean;
+  /** One iteration. Errors: the result is then as before. */
+  abstract advance(): Step;
+  /** Back to rest; what is built stays where that changes nothing. */
+  abstract reset(): void;
+
+  /** Vertices that refinement added to the rest shape. */
+  abstract readonly added: Refinement | undefined;
+  /** `dimension` numbers a vertex, those of the rest shape and the added ones. */
+  abstract positions<T extends FloatArray>(out: T): T;
+  /** Unit normals, three numbers a vertex. */
+  abstract normals<T extends FloatArray>(out: T): T;
+  /** Of the step alone, as `EditResult.state`. */
+  abstract state(): State;
+  abstract report(): StepReport;
+  /** Carries points of the rest shape's space, in place. Errors: not-solvable. */
+  abstract carry(points: Float64Array): void;
+  abstract dispose(): void;
+
+  /** How far it has come, and what else it takes to come back. */
+  protected abstract save(): Omit<StageMoment, "source">;
+  /** As `prepare`, at a moment of the same step over the same rest shape. */
+  protected abstract bringBack(plan: P, rest: Rest, moment: StageMoment): void;
+
+  /** Whether it can stand for this step. */
+  carries(plan: StepPlan): plan is P {
+    return this.plan.kind === plan.kind;
+  }
+
+  get standsFor(): P {
+    return this.plan;
+  }
+
+  /** Whether it stands for this step over this rest shape. */
+  isAt(plan: StepPlan, rest: Rest): boolean {
+    return plan === this.plan && rest === this.rest;
+  }
+
+  /** At the result, each term unweighted and the weighted sum as `total`. */
+  energy(): Record<string, number> {
+    return { total: 0 };
+  }
+
+  get vertices(): number {
+    return this.rest.positions.length / this.rest.dimension + (this.added?.parents.length ?? 0) / 2;
+  }
+
+  /** The rest shape of the next step, the same one until the result changes. */
+  next(): Rest {
+    if (this.#next) return this.#next;
+    const { core, input, dimension, growth } = this.rest;
+    const positions = this.positions(new Float64Array(dimension * this.vertices));
+    const labels = this.labels();
+    const { added } = this;
+    return (this.#next = added
+      ? new Rest(core, input, positions, grown(growth, added), labels && extendedLabels(labels, added.parents))
+      : new Rest(core, input, positions, growth, labels));
+  }
+
+  /** Of the last sketch, one a vertex of the rest shape. */
+  protected labels(): Uint32Array | undefined {
+    return this.rest.labels;
+  }
+
+  /** What refinement has added to the input up to here. */
+  get growth(): Refinement | undefined {
+    return this.added ? this.next().growth : this.rest.growth;
+  }
+
+  /** Where the rest shape's vertices are at rest in this step. */
+  get restPositions(): Float64Array {
+    return this.rest.positions;
+  }
+
+  /** Moments share what has not changed between them. */
+  moment(): StageMoment {
+    if (this.#saved && this.#stands) return this.#saved;
+    this.#stands = true;
+    const { source: _, ...before } = this.#saved ?? { source: undefined };
+    return (this.#saved = { ...shared(before, this.save()), source: this.plan.source });
+  }
+
+  /** Goes to a moment of the same step over the same rest shape. */
+  goTo(plan: P, rest: Rest, moment: StageMoment): void {
+    if (moment === this.#saved && this.#stands && rest === this.rest) {
+      this.prepare(plan, rest);
+      return;
+    }
+    this.bringBack(plan, rest, moment);
+    this.changed();
+  }
+
+  /** The result is another one from now on. */
+  protected changed(): void {
+    this.#stands = false;
+    this.#next?.dispose();
+    this.#next = undefined;
+  }
+}
