@@ -9,7 +9,7 @@ import { WorkerPliant } from "./worker/objects.js";
 import type { Reference } from "./worker/protocol.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 
-export { WorkerDeformer, WorkerHandle, WorkerPliant, WorkerShape, WorkerSketch } from "./worker/objects.js";
+export { WorkerDeformer, WorkerEdit, WorkerHandle, WorkerPliant, WorkerShape, WorkerSketch } from "./worker/objects.js";
 export type * from "./public.js";
 export { PliantError };
 

@@ -1,6 +1,6 @@
 // The living edit: an immutable document, and what stands of it. The one interpreter of edit scripts.
 
-import { type Fields, fields, flag, type FloatArray, integer, list, notNegative, output, Place } from "../boundary/check.js";
+import { type Fields, fields, type FloatArray, integer, list, notNegative, output, Place } from "../boundary/check.js";
 import { type Core, disposeSymbol } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { HandleState, State } from "../boundary/state.js";
@@ -19,7 +19,7 @@ import { same } from "./same.js";
 import { SketchStage } from "./sketch_stage.js";
 import type { StageMoment } from "./stage.js";
 import { Stages } from "./stages.js";
-import type { EditDocument, EditFrame, EditMoment, EditQuality, EditReport, EditRun, EditStep, FrameOptions, RunOptions, SettleOptions, SketchView } from "./types.js";
+import type { EditDocument, EditMoment, EditQuality, EditReport, EditRun, EditStep, RunOptions, SettleOptions, SketchView } from "./types.js";
 
 const momentFormat = "pliant-moment";
 const place = new Place("invalid-option", "options");
@@ -179,20 +179,6 @@ export class Edit {
     }
   }
 
-  /** What a picture of an animation takes, in one call: `apply` where a document is given, `run`, positions and normals. */
-  frame(options: FrameOptions = {}): EditFrame {
-    const { document, state = false, sketch = false, ...run } = fields(place, options, [...runKeys, "document", "state", "sketch"]);
-    const wanted = { state: flag(place.at("state"), state), sketch: flag(place.at("sketch"), sketch) };
-    const limits = readRun(run);
-    if (document !== undefined) this.apply(document as EditDocument);
-    const done = this.#run(limits);
-    return {
-      ...done, positions: this.positions(), normals: this.normals(),
-      ...(wanted.state ? { state: this.state() } : {}),
-      ...(wanted.sketch ? { sketch: this.sketch(), refinement: this.refinement() } : {}),
-    };
-  }
-
   // -- Results. -------------------------------------------------------------------------------------
 
   /** Vertices of the result: the input's, then those that refinement added. */
@@ -297,9 +283,9 @@ function isMoment(value: unknown): value is EditMoment {
 }
 
 function readStage(here: Place, value: unknown): StageMoment {
-  const { source, progress, shown, state } = fields(here, value, ["source", "progress", "shown", "state"]);
+  const { progress } = fields(here, value, ["source", "progress", "shown", "state"]);
   list(here.at("progress"), progress);
-  return { source, progress, ...(shown === undefined ? {} : { shown }), ...(state === undefined ? {} : { state }) } as StageMoment;
+  return value as StageMoment;
 }
 
 /** What can be told of the first step without building it. */

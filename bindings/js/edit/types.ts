@@ -148,22 +148,6 @@ export interface EditRun extends EditStep {
   converged: boolean;
 }
 
-export interface FrameOptions extends RunOptions {
-  /** To be applied before. */
-  document?: EditDocument | EditMoment;
-  /** Adds the state; adds the limb of a sketch and what refinement has added. */
-  state?: boolean;
-  sketch?: boolean;
-}
-
-export interface EditFrame extends EditRun {
-  positions: Float32Array;
-  normals: Float32Array;
-  state?: State;
-  sketch?: SketchView | undefined;
-  refinement?: Refinement | undefined;
-}
-
 /** What is to be seen of a limb: see `labels`, `parameters`, `reference` and `target` of `Sketch`. */
 export interface SketchView {
   labels: Uint32Array;

@@ -5,21 +5,25 @@ import { nodeModule } from "../boundary/wasm.js";
 import { Deformer } from "../deform/deformer.js";
 import { Handle } from "../deform/handle.js";
 import { Sketch } from "../deform/sketch.js";
+import { Edit } from "../edit/living.js";
 import { makeInit } from "../init.js";
 import { Pliant } from "../pliant.js";
 import { Shape } from "../shape/shape.js";
+import { patched, type Patch } from "./patch.js";
 import { buffersOf, type Call, packError, type Port, type Reference, type Reply, type Request } from "./protocol.js";
-import { type ClassName, rowOf } from "./surface.js";
+import { type ClassName, rowOf, type Travel } from "./surface.js";
 
 const init = makeInit(() => Promise.reject(new Error("none was named")));
 
-const classes = { Pliant, Shape, Deformer, Handle, Sketch } satisfies Record<ClassName, unknown>;
+const classes = { Pliant, Shape, Deformer, Handle, Sketch, Edit } satisfies Record<ClassName, unknown>;
 const names = new Map<unknown, ClassName>(Object.entries(classes).map(([name, its]) => [its, name as ClassName]));
 
 type Method = (...args: unknown[]) => unknown;
 
 class Host {
   readonly #objects = new Map<number, object>();
+  /** Values that what is given next is told apart from. */
+  readonly #given = new Map<number, unknown>();
   readonly #running = new Map<number, AbortController>();
   #last = 0;
 
@@ -30,7 +34,7 @@ class Host {
     const replies: Reply[] = [];
     for (const request of requests) {
       if ("abort" in request) this.#running.get(request.abort)?.abort();
-      else if ("release" in request) this.#objects.delete(request.release);
+      else if ("release" in request) this.#release(request.release);
       else {
         const reply = this.#answer(request);
         if (reply instanceof Promise) void reply.then((late) => this.#post([late]));
@@ -38,6 +42,11 @@ class Host {
       }
     }
     if (replies.length > 0) this.#post(replies);
+  }
+
+  #release(object: number): void {
+    this.#objects.delete(object);
+    this.#given.delete(object);
   }
 
   #answer(call: Call): Reply | Promise<Reply> {
@@ -60,7 +69,7 @@ class Host {
     if (!object) throw new PliantError("disposed", "the object is disposed; expected a live one");
     const { calls } = rowOf(names.get(object.constructor)!);
     if (!Object.hasOwn(calls, method)) throw new Error(`there is no method ${method}`);
-    return (object as Record<string, Method>)[method](...this.#arguments(call, calls[method].options));
+    return (object as Record<string, Method>)[method](...this.#arguments(call, calls[method]));
   }
 
   async #start(options: Parameters<typeof init>[0]): Promise<Pliant> {
@@ -69,7 +78,11 @@ class Host {
     return pliant;
   }
 
-  #arguments({ id, args, objects = [], local = [], doubles }: Call, options = 0): unknown[] {
+  #arguments({ id, target, args, objects = [], local = [], doubles }: Call, { options = 0, changes }: Travel): unknown[] {
+    if (changes !== undefined) {
+      args[changes] = patched(this.#given.get(target), args[changes] as Patch);
+      this.#given.set(target, args[changes]);
+    }
     for (const [argument, object] of objects) args[argument] = this.#objects.get(object);
     if (doubles !== undefined) args.push(new Float64Array(doubles));
     if (local.length === 0) return args;

@@ -42,7 +42,7 @@ export class Line {
     const { signal } = local;
     if (signal?.aborted) return Promise.reject(new PliantError("aborted", "the signal was aborted", { cause: signal.reason }));
     const id = ++this.#last;
-    const sent = { ...call, id, args: ownCopies(call) };
+    const sent = { ...call, id, args: ownCopy(call.method, call.args) };
     const answer = new Promise<T>((resolve, reject) => this.#pending.set(id, { ...local, resolve, reject }));
     this.#port.busy(true);
     this.#post(sent);
@@ -114,9 +114,9 @@ export class Line {
 }
 
 /** The caller may change what it handed over before the message leaves. Errors: invalid-option. */
-function ownCopies({ method, args }: Omit<Call, "id">): unknown[] {
+export function ownCopy<T>(method: string, value: T): T {
   try {
-    return structuredClone(args);
+    return structuredClone(value);
   } catch (error) {
     const reason = `the arguments of ${method} cannot be sent to a worker: ${(error as Error).message}`;
     throw new PliantError("invalid-option", `${reason}; expected plain data`, { cause: error });

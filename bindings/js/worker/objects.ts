@@ -7,6 +7,9 @@ import { PliantError } from "../boundary/errors.js";
 import type { Deformer } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
 import type { Sketch } from "../deform/sketch.js";
+import type { Edit } from "../edit/living.js";
+import { shared } from "../edit/same.js";
+import type { EditMoment } from "../edit/types.js";
 import type { DeformerOptions, MethodName } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
@@ -23,6 +26,7 @@ type OnPage<T> =
   T extends Deformer<infer M> ? WorkerDeformer<M> :
   T extends Handle ? WorkerHandle :
   T extends Sketch ? WorkerSketch :
+  T extends Edit ? WorkerEdit :
   T;
 
 /** Results in a new array, or in the caller's. */
@@ -142,8 +146,26 @@ export class WorkerSketch extends remote("Sketch") {
   }
 }
 
+/** See {@link Edit}. */
+export interface WorkerEdit extends Seen<Edit, "Edit"> {}
+export class WorkerEdit extends remote("Edit") {
+  readonly shape: WorkerShape;
+  #moment: EditMoment | undefined;
+
+  /** @internal */
+  constructor(line: Line, reference: Reference, { args }: Origin) {
+    super(line, reference);
+    this.shape = args[0] as WorkerShape;
+  }
+
+  /** Moments share what has not changed between them on this side, too. */
+  protected override received(method: string, value: unknown): unknown {
+    return method === "moment" ? (this.#moment = shared(this.#moment, value as EditMoment)) : value;
+  }
+}
+
 const classes = {
-  Pliant: WorkerPliant, Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch,
+  Pliant: WorkerPliant, Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch, Edit: WorkerEdit,
 } satisfies Record<ClassName, unknown>;
 
 function made(name: ClassName, line: Line, reference: Reference, origin: Origin): Remote {

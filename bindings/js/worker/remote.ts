@@ -1,7 +1,8 @@
 // An object of pliant/worker, seen from the page.
 
 import { type FloatArray, output, Place, vertexIds } from "../boundary/check.js";
-import type { Line, Local } from "./line.js";
+import { type Line, type Local, ownCopy } from "./line.js";
+import { patchOf } from "./patch.js";
 import type { Call, LocalOption, Reference } from "./protocol.js";
 import type { Travel } from "./surface.js";
 
@@ -16,6 +17,8 @@ export class Remote {
   readonly #line: Line;
   readonly #object: number;
   #ended = false;
+  /** What the worker was given last, of what changes little. */
+  #given: unknown;
 
   /** @internal */
   constructor(line: Line, { object, constants }: Reference) {
@@ -42,15 +45,25 @@ export class Remote {
     // An object in a worker that is gone is gone too.
     if (travel.ends && this.#line.closed) return undefined;
     const { call, local, out } = this.#pack(method, travel, args);
-    const value = await this.#line.call(call, local);
+    const value = this.received(method, await this.#line.call(call, local));
     if (travel.ends) this.#ended = true;
     if (travel.gives) return make(value as Reference);
     return travel.into !== undefined && out !== undefined ? written(out, value as FloatArray) : value;
   }
 
-  #pack(method: string, { options, into, ids }: Travel, given: readonly unknown[]) {
+  /** What an answer is on this side. @internal */
+  protected received(_method: string, value: unknown): unknown {
+    return value;
+  }
+
+  #pack(method: string, { options, into, ids, changes }: Travel, given: readonly unknown[]) {
     const args = [...given];
     const call: Omit<Call, "id"> = { target: this.#object, method, args };
+    if (changes !== undefined) {
+      const given = args[changes];
+      args[changes] = ownCopy(method, patchOf(this.#given, given));
+      this.#given = given;
+    }
     if (ids) args[0] = this.#ids(ids, args[0]);
     const out = into === undefined ? undefined : args.splice(into)[0];
     if (out instanceof Float64Array) call.doubles = out.length;

@@ -7,6 +7,7 @@
 import type { Deformer } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
 import type { Sketch } from "../deform/sketch.js";
+import type { Edit } from "../edit/living.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
 
@@ -17,6 +18,7 @@ export interface Classes {
   Deformer: Deformer;
   Handle: Handle;
   Sketch: Sketch;
+  Edit: Edit;
 }
 
 export type ClassName = keyof Classes;
@@ -31,6 +33,8 @@ export interface Travel {
   readonly into?: number;
   /** The first argument is any iterable of vertex ids, called so in errors; what travels is a list. */
   readonly ids?: string;
+  /** Which argument is an immutable value, given again and again: what travels is how it differs from the one before. */
+  readonly changes?: number;
   /** The object is gone after it, and may be gone before. */
   readonly ends?: true;
 }
@@ -61,7 +65,7 @@ export const surface = {
   Pliant: {
     constants: [],
     calls: {
-      shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" },
+      shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" }, open: { gives: "Edit" },
       measure: plain, edit: { options: 2 },
     },
   },
@@ -86,6 +90,13 @@ export const surface = {
       redraw: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
       setSmooth: plain, morph: plain, pose: plain, setPose: plain, refine: plain, unrefine: plain, labels: plain,
       parameters: into, reference: plain, target: plain, restPositions: into, seed: plain, ...deformation,
+    },
+  },
+  Edit: {
+    constants: [],
+    calls: {
+      apply: { changes: 0 }, run: plain, settle: { options: 0 }, reset: plain, moment: plain,
+      positions: into, normals: into, state: plain, sketch: plain, refinement: plain, report: plain, dispose: ends,
     },
   },
 } as const satisfies Rows;
