@@ -25,7 +25,7 @@ const entries = {
 const budget = [
   { file: "pliant.wasm", raw: 610e3, gzip: 253e3 },
   { file: "pliant.js", gzip: 34e3 },
-  { file: "inline.js", gzip: 287e3 },
+  { file: "inline.js", gzip: 292e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */
