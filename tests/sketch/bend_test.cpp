@@ -228,5 +228,55 @@ TEST_CASE("poses are kept, blended and set again") {
   CHECK_FALSE(sketch->set_pose(wrong).ok());
 }
 
+TEST_CASE("a scene of any size, anywhere, is posed alike") {
+  const test::Mesh mesh = test::cylinder(16, 40, 0.05);
+  const Stroke reference = test::straight(front_pixel(0.0, 0.2), front_pixel(0.0, 0.8));
+  const Stroke target = test::curved(front_pixel(0.0, 0.2), 0.6, [](double) { return 2.0; });
+  const auto posed = [&](double scale, const Eigen::Vector3d& origin, bool perspective) {
+    CameraOptions camera = test::front_view();
+    camera.eye = scale * camera.eye + origin;
+    camera.target = scale * camera.target + origin;
+    if (perspective) {
+      camera.orthographic_height.reset();
+      camera.fov_y = 22.6;
+    } else {
+      camera.orthographic_height = scale * *camera.orthographic_height;
+    }
+    const test::Mesh there = test::transformed(mesh, scale, Eigen::Matrix3d::Identity(), origin);
+    const auto sketch = test::sketch_on(there, reference, {}, camera);
+    CHECK(sketch->bend(target).ok());
+    CHECK(sketch->twist(1.0).ok());
+    CHECK(sketch->set_scale(Profile::constant(1.5)).ok());
+    CHECK(sketch->refine(there.triangles).ok());
+    sketch->unrefine();
+    return Points((sketch->positions().colwise() - origin) / scale);
+  };
+  for (const bool perspective : {false, true}) {
+    const Points expected = posed(1.0, {0, 0, 0}, perspective);
+    for (const double scale : {1e-30, 1e-20, 1e-6, 1e6, 1e20, 1e28}) {
+      INFO(scale << " " << perspective);
+      CHECK((posed(scale, {0, 0, 0}, perspective) - expected).cwiseAbs().maxCoeff() < 1e-6);
+    }
+    CHECK((posed(1.0, {1e6, -3e6, 1e6}, perspective) - expected).cwiseAbs().maxCoeff() < 1e-4);
+  }
+}
+
+TEST_CASE("a shape too small to be seen is refused, points that all but coincide move as one") {
+  const Stroke reference = test::straight(front_pixel(0.0, 0.2), front_pixel(0.0, 0.8));
+  const Camera camera = *Camera::create(test::front_view());
+  const test::Mesh tiny = test::transformed(test::cylinder(16, 40, 0.05), 1e-20);
+  const Status status = Sketch::create(test::shape_of(tiny), camera, reference).status();
+  CHECK(status.code() == ErrorCode::invalid_option);
+  CHECK(status.message() == "camera.eye is 5 away from the shape; expected at most 1e7 times its size");
+
+  test::Mesh mesh = test::cylinder(16, 40, 0.05);
+  const auto a = static_cast<std::size_t>(mesh.triangles[300]), b = static_cast<std::size_t>(mesh.triangles[301]);
+  for (std::size_t k = 0; k < 3; ++k) mesh.positions[3 * a + k] = mesh.positions[3 * b + k];
+  mesh.positions[3 * a + 1] *= 1.0 - 1e-15;  // not welded, and one as seen from five away
+  const auto sketch = test::sketch_on(mesh, reference);
+  REQUIRE(sketch->bend(test::curved(front_pixel(0.0, 0.2), 0.6, [](double) { return 2.0; })).ok());
+  CHECK(sketch->positions().allFinite());
+}
+
 }  // namespace
 }  // namespace pliant

@@ -98,12 +98,13 @@ TEST_CASE("refinement splits what is stretched and bent, carries attributes, and
   const State state = sketch->save();
   const auto& s = state.find("s")->data;
   const auto& angles = state.find("angles")->data;
+  const double step = (point_of(*state.find("reference"), 0) - point_of(*state.find("reference"), 1)).norm();
   int stretched = 0;
   for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
     const Index a = static_cast<Index>(refined.triangles[i]);
     const Index b = static_cast<Index>(refined.triangles[i % 3 == 2 ? i - 2 : i + 1]);
     const double stretch = (bent.col(a) - bent.col(b)).norm() / (rest.col(a) - rest.col(b)).norm();
-    if (stretch <= 1.5) continue;
+    if (stretch <= 1.5 || (rest.col(a) - rest.col(b)).norm() <= step) continue;
     ++stretched;
     const Eigen::Vector3d middle =
         carried(state, 0.5 * (rest.col(a) + rest.col(b)), 0.5 * (s[a] + s[b]), 0.5 * (angles[a] + angles[b]));
@@ -144,6 +145,25 @@ TEST_CASE("refinement splits what is stretched and bent, carries attributes, and
   CHECK(sketch->refinement() == nullptr);
   CHECK(sketch->positions() == before);
   CHECK(sketch->save().find("parents") == nullptr);
+}
+
+TEST_CASE("refinement ends, also where the target kinks and where the skinning jumps") {
+  for (const auto& [rings, columns] :
+       {std::array{12, 30}, std::array{18, 20}, std::array{20, 18}, std::array{24, 15}}) {
+    const test::Mesh mesh = test::cylinder(rings, columns, 0.06);
+    REQUIRE(mesh.vertices() == 362);
+    for (const double longer : {1.0, 1.3, 1.6, 1.8, 3.0}) {
+      SketchOptions options;
+      options.smooth = false;
+      const auto sketch = test::sketch_on(mesh, reference(), options);
+      const double length = 0.8 * longer, turn = pi * 170 / 180 / (0.3 * length);
+      const Stroke target =
+          test::curved(front_pixel(0.0, 0.1), length, [&](double s) { return s > 0.35 && s < 0.65 ? turn : 0.0; });
+      REQUIRE(sketch->bend(target).ok());
+      REQUIRE(sketch->refine(mesh.triangles, 2000).ok());
+      if (longer == 3.0) CHECK(sketch->refinement()->parents.size() > 100);
+    }
+  }
 }
 
 TEST_CASE("nothing is refined where nothing stretches, and limits are kept") {

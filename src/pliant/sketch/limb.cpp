@@ -288,11 +288,11 @@ class Limb::Placer {
   Eigen::Vector2d from_ = Eigen::Vector2d::Zero(), to_ = Eigen::Vector2d::Zero();
 };
 
-void Limb::show(double t, Points& world) const {
+void Limb::show(double t, Points& world, Index first) const {
   if (t == 0.0 || (!pose_.bends() && !pose_.twists() && !pose_.scales())) return;
   Placer place(*this, t);
   const Index total = static_cast<Index>(s_.size());
-  for (Index p = 0; p < total; ++p) {
+  for (Index p = first; p < total; ++p) {
     if (!moved_[p]) continue;
     const Parameters at{s_[p], bend_[p], twist_[p], scale_[p]};
     world.col(p) = seen_.camera.to_world(place(seen_.view.col(p), at));
@@ -304,9 +304,15 @@ Limb::Parameters Limb::between(Index a, Index b) const {
   return {mean(s_), mean(bend_), mean(twist_), mean(scale_)};
 }
 
-Eigen::Vector3d Limb::middle(Index a, Index b, double t) const {
-  const Eigen::Vector3d view = 0.5 * (seen_.view.col(a) + seen_.view.col(b));
-  return seen_.camera.to_world(Placer(*this, t)(view, between(a, b)));
+Points Limb::middles(std::span<const std::array<Index, 2>> edges, double t) const {
+  Placer place(*this, t);
+  Points result(3, static_cast<Index>(edges.size()));
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    const Eigen::Vector3d view = 0.5 * (seen_.view.col(a) + seen_.view.col(b));
+    result.col(static_cast<Index>(i)) = seen_.camera.to_world(place(view, between(a, b)));
+  }
+  return result;
 }
 
 void Limb::add(std::span<const std::array<Index, 2>> parents) {

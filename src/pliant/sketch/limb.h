@@ -35,15 +35,16 @@ class Limb {
   /// Parameters of all points in a pose, eq. 9 to a relative tolerance; twists and scales need
   /// joints.
   void set_pose(const SketchPose& pose, double tolerance);
-  /// Writes the places of all points that a share t of the pose moves; others are left alone.
-  void show(double t, Points& world) const;
+  /// Writes the places of all points from `first` on that a share t of the pose moves; others are
+  /// left alone.
+  void show(double t, Points& world, Index first = 0) const;
 
   /// Adds points in the middle between two others each (refinement), until `drop_added`. Their
   /// parameters are the means of their parents'.
   void add(std::span<const std::array<Index, 2>> parents);
   void drop_added();
-  /// Where a share t of the pose takes the middle between two points.
-  Eigen::Vector3d middle(Index a, Index b, double t) const;
+  /// Where a share t of the pose takes the middles between two points each, 3 x edges.
+  Points middles(std::span<const std::array<Index, 2>> edges, double t) const;
   /// Whether the pose can move the point.
   bool moves(Index point) const { return moved_[point]; }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFidelityShare = 0.05;  // w_c / 2 over the sum of w: sum w = 10 w_c
 constexpr double kRelaxation = 0.97;     // of what the incomplete factor leaves out
+constexpr double kLeastLength = 1e-6;    // of the mean: points that all but coincide move as one
 constexpr int kMaxPasses = 200;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -20,11 +21,17 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 ParameterSmoother::ParameterSmoother(const Points& points, std::span<const Index> point_of_local, Index free,
                                      std::span<const std::array<Index, 2>> edges)
     : offsets_(free + 1, 0), fidelity_(free, 0.0), diagonal_(free, 0.0) {
-  std::vector<double> sums(free, 0.0), weights;
+  std::vector<double> sums(free, 0.0), weights, lengths;
+  lengths.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    lengths.push_back((points.col(point_of_local[a]) - points.col(point_of_local[b])).norm());
+  }
+  const double all = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const double least = all > 0.0 ? kLeastLength * all / static_cast<double>(lengths.size()) : 1.0;
   weights.reserve(edges.size());
   for (const auto& [a, b] : edges) {
     const auto [low, high] = std::minmax(a, b);
-    const double w = 1.0 / (points.col(point_of_local[a]) - points.col(point_of_local[b])).norm();
+    const double w = 1.0 / std::max(least, lengths[weights.size()]);
     weights.push_back(w);
     if (low < free) sums[low] += w;
     if (high < free) {

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -20,59 +22,100 @@ std::uint64_t key(Index a, Index b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
+/// A triangle of the refined mesh, by its vertices; `of`: the input's that it is a part of.
+/// spans[c]: of the edge from corner c to the next, its length at rest in the input; half that of
+/// the edge whose split made it else, so that every split leaves less to do. (A triangle on a long
+/// edge that is not split has another long edge after every split.)
+struct Piece {
+  std::array<std::uint32_t, 3> corners;
+  std::array<double, 3> spans;
+  std::uint32_t of;
+};
+
+/// Splits in rounds. Whether an edge is split depends on its two ends alone, and these do not move:
+/// what a round leaves whole is done, so that all rounds together cost what the input has and what
+/// is added.
 class Refiner {
  public:
   Refiner(SketchImpl& impl, std::span<const std::uint32_t> triangles, Index max_added)
-      : impl_(impl), max_added_(max_added) {
+      : impl_(impl), max_added_(max_added), rest_(impl.shape->points()) {
     impl.refinement.emplace();
-    Refinement& refinement = *impl.refinement;
-    refinement.triangles.assign(triangles.begin(), triangles.end());
-    for (std::uint32_t t = 0; t < triangles.size() / 3; ++t) {
-      refinement.triangle_parents.push_back(t);
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+      const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
+      const std::array<double, 3> spans{distance(rest_, a, b), distance(rest_, b, c), distance(rest_, c, a)};
+      fresh_.push_back({{a, b, c}, spans, static_cast<std::uint32_t>(i / 3)});
     }
-    rest_ = impl.shape->points();
+    inputs_ = fresh_.size();
   }
 
   /// False when there would be more than max_added vertices.
   bool run() {
     while (find_edges()) {
+      if (static_cast<Index>(parents_.size()) > max_added_) return false;
       add_points();
-      if (!split_triangles()) return false;
+      if (!split_pieces()) return false;
     }
+    done_.insert(done_.end(), fresh_.begin(), fresh_.end());
+    write_triangles();
     return true;
   }
 
  private:
+  using Edge = std::array<Index, 2>;
+
   bool moves(Index p) const {
     return std::any_of(impl_.limbs.begin(), impl_.limbs.end(), [&](const Limb& limb) { return limb.moves(p); });
   }
 
-  /// Both criteria.
-  bool wants_split(Index a, Index b) const {
-    if (!moves(a) && !moves(b)) return false;
+  /// The first criterion. The pose is one of a polyline: across a kink of it an edge bends however
+  /// short it is, and over a gap of the skinning it stretches. Splitting stops at the length of its
+  /// steps, below which there is nothing to come nearer to.
+  bool is_stretched(const Edge& edge, double span) const {
+    const auto [a, b] = edge;
     const double before = (rest_.col(a) - rest_.col(b)).norm();
-    const Eigen::Vector3d p = impl_.world.col(a), q = impl_.world.col(b);
-    if (!((p - q).norm() > kMaxStretch * before)) return false;
-    const Limb& limb = impl_.limb_of(moves(a) ? a : b);
-    const Eigen::Vector3d middle = limb.middle(a, b, impl_.morph);
-    const Eigen::Vector3d u = p - middle, v = q - middle;
+    const double after = (impl_.world.col(a) - impl_.world.col(b)).norm();
+    return after > kMaxStretch * before && std::min(before, span) > limb_of(edge).reference().step();
+  }
+
+  /// The second, with where the pose takes the middle of the edge.
+  bool is_bent(const Edge& edge, const Eigen::Vector3d& middle) const {
+    const Eigen::Vector3d u = impl_.world.col(edge[0]) - middle, v = impl_.world.col(edge[1]) - middle;
     return std::atan2(u.cross(v).norm(), u.dot(v)) < kMaxAngle;
+  }
+
+  const Limb& limb_of(const Edge& edge) const { return impl_.limb_of(moves(edge[0]) ? edge[0] : edge[1]); }
+
+  Edge points_of(std::uint32_t a, std::uint32_t b) const {
+    const Index p = impl_.point_of(static_cast<Index>(a)), q = impl_.point_of(static_cast<Index>(b));
+    return {std::min(p, q), std::max(p, q)};
+  }
+
+  /// The edges of fresh pieces that are stretched, each once.
+  std::vector<Edge> stretched_edges() const {
+    std::unordered_set<std::uint64_t> seen;
+    std::vector<Edge> edges;
+    for (const Piece& piece : fresh_) {
+      for (int c = 0; c < 3; ++c) {
+        const Edge edge = points_of(piece.corners[c], piece.corners[(c + 1) % 3]);
+        if (edge[0] == edge[1] || (!moves(edge[0]) && !moves(edge[1]))) continue;
+        if (seen.insert(key(edge[0], edge[1])).second && is_stretched(edge, piece.spans[c])) edges.push_back(edge);
+      }
+    }
+    return edges;
   }
 
   /// The edges to split in this round: point_of_edge_ gets their new points' ids.
   bool find_edges() {
-    std::unordered_map<std::uint64_t, Index> seen;
+    const std::vector<Edge> edges = stretched_edges();
     point_of_edge_.clear();
     parents_.clear();
-    const std::vector<std::uint32_t>& corners = impl_.refinement->triangles;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-      const Index a = impl_.point_of(static_cast<Index>(corners[i]));
-      const Index b = impl_.point_of(static_cast<Index>(corners[next]));
-      if (a == b || (!moves(a) && !moves(b))) continue;
-      if (!seen.try_emplace(key(a, b), 0).second || !wants_split(a, b)) continue;
-      point_of_edge_.emplace(key(a, b), static_cast<Index>(rest_.cols() + parents_.size()));
-      parents_.push_back({std::min(a, b), std::max(a, b)});
+    for (const Limb& limb : impl_.limbs) {
+      const Points middles = limb.middles(edges, impl_.morph);
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (&limb_of(edges[i]) != &limb || !is_bent(edges[i], middles.col(static_cast<Index>(i)))) continue;
+        point_of_edge_.emplace(key(edges[i][0], edges[i][1]), static_cast<Index>(rest_.cols() + parents_.size()));
+        parents_.push_back(edges[i]);
+      }
     }
     return !parents_.empty();
   }
@@ -89,7 +132,7 @@ class Refiner {
     }
     for (Limb& limb : impl_.limbs) {
       limb.add(parents_);
-      limb.show(impl_.morph, impl_.world);
+      limb.show(impl_.morph, impl_.world, first);
     }
   }
 
@@ -110,69 +153,82 @@ class Refiner {
     return found->second;
   }
 
-  bool split_triangles() {
-    Refinement& refinement = *impl_.refinement;
+  bool split_pieces() {
     vertex_of_edge_.clear();
-    const std::vector<std::uint32_t> before = std::move(refinement.triangles);
-    const std::vector<std::uint32_t> parents = std::move(refinement.triangle_parents);
-    refinement.triangles.clear();
-    refinement.triangle_parents.clear();
-    for (std::size_t t = 0; t < parents.size(); ++t) {
-      split(&before[3 * t]);
-      refinement.triangle_parents.resize(refinement.triangles.size() / 3, parents[t]);
-      if (static_cast<Index>(refinement.parents.size()) > max_added_) return false;
+    const std::vector<Piece> pieces = std::exchange(fresh_, {});
+    for (const Piece& piece : pieces) {
+      split(piece);
+      if (static_cast<Index>(impl_.refinement->parents.size()) > max_added_) return false;
     }
     return true;
   }
 
-  void emit(std::int64_t a, std::int64_t b, std::int64_t c) {
-    for (const std::int64_t corner : {a, b, c}) {
-      impl_.refinement->triangles.push_back(static_cast<std::uint32_t>(corner));
-    }
+  double distance(const Points& places, std::uint32_t a, std::uint32_t b) const {
+    const auto [p, q] = points_of(a, b);
+    return (places.col(p) - places.col(q)).norm();
   }
 
-  double distance(std::int64_t a, std::int64_t b) const {
-    return (impl_.world.col(impl_.point_of(static_cast<Index>(a))) -
-            impl_.world.col(impl_.point_of(static_cast<Index>(b))))
-        .norm();
-  }
-
-  void split(const std::uint32_t* corners) {
+  void split(const Piece& piece) {
+    const auto& [corners, spans, of] = piece;
     std::int64_t middle[3];
     int count = 0;
+    double half = 0.0;  // of the longest that is split
     for (int c = 0; c < 3; ++c) {
       middle[c] = middle_vertex(corners[c], corners[(c + 1) % 3]);
-      count += middle[c] >= 0;
+      if (middle[c] < 0) continue;
+      ++count;
+      half = std::max(half, 0.5 * spans[c]);
     }
+    if (count == 0) return done_.push_back(piece);
     // Turned so that the first edge is split and, of two, the last is not.
     int turn = 0;
-    while (count > 0 && count < 3 && !(middle[turn] >= 0 && middle[(turn + 2) % 3] < 0)) {
-      ++turn;
-    }
-    const std::int64_t a = corners[turn], b = corners[(turn + 1) % 3], c = corners[(turn + 2) % 3];
-    const std::int64_t ab = middle[turn], bc = middle[(turn + 1) % 3], ca = middle[(turn + 2) % 3];
-    if (count == 0) {
-      emit(a, b, c);
-    } else if (count == 1) {
-      emit(a, ab, c);
-      emit(ab, b, c);
+    while (count < 3 && !(middle[turn] >= 0 && middle[(turn + 2) % 3] < 0)) ++turn;
+    const auto corner = [&](int k) { return corners[(turn + k) % 3]; };
+    const auto between = [&](int k) { return static_cast<std::uint32_t>(middle[(turn + k) % 3]); };
+    const auto span = [&](int k) { return spans[(turn + k) % 3]; };
+    const std::uint32_t a = corner(0), b = corner(1), c = corner(2), ab = between(0), bc = between(1), ca = between(2);
+    const double s = 0.5 * span(0), t = 0.5 * span(1), u = 0.5 * span(2);
+    if (count == 1) {
+      fresh_.push_back({{a, ab, c}, {s, half, span(2)}, of});
+      fresh_.push_back({{ab, b, c}, {s, span(1), half}, of});
     } else if (count == 3) {
-      emit(a, ab, ca);
-      emit(ab, b, bc);
-      emit(ca, bc, c);
-      emit(ab, bc, ca);
+      fresh_.push_back({{a, ab, ca}, {s, half, u}, of});
+      fresh_.push_back({{ab, b, bc}, {s, t, half}, of});
+      fresh_.push_back({{ca, bc, c}, {half, t, u}, of});
+      fresh_.push_back({{ab, bc, ca}, {half, half, half}, of});
     } else {
-      emit(ab, b, bc);
-      const bool from_a = distance(a, bc) <= distance(ab, c);
-      emit(a, ab, from_a ? bc : c);
-      emit(from_a ? a : ab, bc, c);
+      fresh_.push_back({{ab, b, bc}, {s, t, half}, of});
+      if (distance(impl_.world, a, bc) <= distance(impl_.world, ab, c)) {
+        fresh_.push_back({{a, ab, bc}, {s, half, half}, of});
+        fresh_.push_back({{a, bc, c}, {half, t, span(2)}, of});
+      } else {
+        fresh_.push_back({{a, ab, c}, {s, half, span(2)}, of});
+        fresh_.push_back({{ab, bc, c}, {half, t, half}, of});
+      }
+    }
+  }
+
+  /// In the order of the input's triangles.
+  void write_triangles() {
+    std::vector<std::size_t> next(inputs_ + 1, 0);
+    for (const Piece& piece : done_) ++next[piece.of + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    Refinement& refinement = *impl_.refinement;
+    refinement.triangles.resize(3 * done_.size());
+    refinement.triangle_parents.resize(done_.size());
+    for (const Piece& piece : done_) {
+      const std::size_t place = next[piece.of]++;
+      std::copy(piece.corners.begin(), piece.corners.end(), refinement.triangles.begin() + 3 * place);
+      refinement.triangle_parents[place] = piece.of;
     }
   }
 
   SketchImpl& impl_;
   Index max_added_;
   Points rest_;
-  std::vector<std::array<Index, 2>> parents_;  ///< of the points added in this round
+  std::size_t inputs_ = 0;
+  std::vector<Piece> fresh_, done_;  ///< of the last round, and those that stay
+  std::vector<Edge> parents_;        ///< of the points added in this round
   std::unordered_map<std::uint64_t, Index> point_of_edge_, vertex_of_edge_;
 };
 

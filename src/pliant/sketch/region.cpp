@@ -1,39 +1,23 @@
 #include "pliant/sketch/region.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
 
+#include "pliant/geometry/adjacency.h"
+#include "pliant/geometry/edge_distance.h"
+#include "pliant/sketch/end_cut.h"
 #include "pliant/sketch/plane_cut.h"
-#include "pliant/sketch/stroke.h"
 
 namespace pliant {
 namespace {
 
-constexpr double kBandPixels = 5.0;  // section 4.2.1
-constexpr double kNearShare = 0.1;   // of the stroke: how far from its place a section may be,
-constexpr double kWideShare = 0.35;  // and how far it may reach along the stroke
-constexpr double kSlideStep = 0.05;
-constexpr int kSlides = 8;
-constexpr double kShrink = 1.4;  // of a section's length from one step to the next
+constexpr double kLeastGap = 0.4;  // of the stroke, between the static part and the end's
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kUntouched = -1;
-
-/// A plane that contains the view's direction.
-struct ScreenLine {
-  Eigen::Vector2d point;
-  Eigen::Vector2d normal;  ///< unit, ahead
-};
-
-std::vector<double> distances(const SeenShape& shape, const ScreenLine& line) {
-  std::vector<double> result(shape.view.cols());
-  for (Index p = 0; p < shape.view.cols(); ++p) {
-    result[p] = line.normal.dot(shape.view.col(p).head<2>() - line.point);
-  }
-  return result;
-}
 
 std::vector<Index> with_label(const std::vector<Index>& labels, Index label) {
   std::vector<Index> part;
@@ -71,8 +55,8 @@ class RegionFinder {
 
   Result<Region> find(std::span<const Polyline> partitions) {
     label_component();
-    start_ = cut_limb(with_label(labels_, kRegionLabel), false, kStaticLabel);
-    cut_limb(with_label(labels_, kRegionLabel), true, kFirstRigidLabel);
+    cut_ends();
+    keep_ends_apart();
     for (std::size_t i = 0; i < partitions.size(); ++i) {
       if (!cut_partition(partitions[i])) {
         return Status(ErrorCode::invalid_option,
@@ -87,12 +71,11 @@ class RegionFinder {
       return Status(ErrorCode::invalid_option,
                     "reference covers no vertex of the shape; expected a stroke over or along it");
     }
+    assert(!torn_edge(shape_.triangles, region.of_point));
     return region;
   }
 
  private:
-  double band() const { return kBandPixels * shape_.camera.pixel_size(stroke_.depth); }
-
   void label_component() {
     const std::vector<Index> component = connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
     const Index mine = component_of_stroke(component);
@@ -129,110 +112,62 @@ class RegionFinder {
     return component[best];
   }
 
-  /// Where the stroke is on the shape: the first hit there, else the point of the curve.
-  Eigen::Vector3d anchor(double s) const {
-    const auto node = static_cast<Index>(std::lround(s * (stroke_.curve.size() - 1)));
-    const std::vector<Hit>& hits = stroke_.hits[node];
-    const double depth = hits.empty() ? stroke_.depth : hits.front().depth;
-    const Eigen::Vector2d xy = shape_.camera.at_depth(stroke_.pixels.col(node), depth);
-    return {xy.x(), xy.y(), depth};
-  }
-
-  /// The loop nearest to the anchor, unless it belongs to another place along the stroke. -1: none.
-  Index loop_at(const std::vector<CutLoop>& loops, double s) const {
-    const Eigen::Vector3d from = anchor(s);
-    double nearest = kInfinity;
-    Index best = -1;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-      Index at = 0;
-      const double distance = (loops[l].crossings.colwise() - from).colwise().squaredNorm().minCoeff(&at);
-      const double place = stroke_.curve.nearest(loops[l].crossings.col(at).head<2>());
-      if (std::abs(place - s) <= kNearShare && distance < nearest) {
-        nearest = distance;
-        best = static_cast<Index>(l);
-      }
-    }
-    return best;
-  }
-
-  /// Whether all of a loop lies near the place of the stroke where the plane is.
-  bool is_section(const CutLoop& loop, double s) const {
-    for (const auto& crossing : loop.crossings.colwise()) {
-      if (std::abs(stroke_.curve.nearest(crossing.head<2>()) - s) > kWideShare) return false;
-    }
-    return true;
-  }
-
-  ScreenLine across(double s) const {
-    const Polyline& nodes = stroke_.curve.nodes();
-    const Index last = static_cast<Index>(nodes.cols()) - 1;
-    // Over a few nodes: a stroke often begins and ends with a hook.
-    const Index span = std::max<Index>(1, last / 20);
-    const auto node = static_cast<Index>(std::lround(s * last));
-    const Index first = std::min(std::max<Index>(0, node - span / 2), last - span);
-    return {nodes.col(node), (nodes.col(first + span) - nodes.col(first)).normalized()};
-  }
-
-  /// What a plane across the stroke meets of the limb.
-  struct Section {
-    bool there = false;
-    bool narrow = false;  ///< lies near its place along the stroke
-    double length = 0.0;
-  };
-
-  Section section_at(const std::vector<Index>& part, double s) const {
-    const std::vector<double> distance = distances(shape_, across(s));
-    const PlaneCut cut(shape_.view, shape_.triangles, part, distance);
-    const Index loop = loop_at(cut.loops(), s);
-    if (loop < 0) return {};
-    return {true, is_section(cut.loops()[loop], s), cut.loops()[loop].length};
-  }
-
-  /// How many steps the cut at the start moves on: past the last place where the section shrinks at
-  /// once, since there the limb leaves the body, or its neighbours.
-  int slide_start(const std::vector<Index>& part) const {
-    int first = 0;
-    Section before = section_at(part, 0.0);
-    if (!before.there) return 0;
-    bool narrow = before.narrow;
-    for (int k = 1; k <= kSlides; ++k) {
-      const Section section = section_at(part, k * kSlideStep);
-      if (!section.there) continue;
-      const bool leaves = before.length > kShrink * section.length;
-      if (leaves || (section.narrow && !narrow)) {
-        first = k;
-        narrow = true;
-      }
-      before = section;
-    }
-    return first;
-  }
-
-  /// The end moves back only as long as its section is none.
-  int slide_end(const std::vector<Index>& part) const {
-    for (int k = 0; k <= kSlides; ++k) {
-      const Section section = section_at(part, 1.0 - k * kSlideStep);
-      if (section.narrow || (k == 0 && !section.there)) return k;
-    }
-    return 0;
-  }
-
-  /// Cuts `part` across the stroke near one of its ends and labels what lies beyond. Returns
-  /// the place of the cut, or that of the end where no loop is there.
-  double cut_limb(const std::vector<Index>& part, bool at_end, Index label) {
-    const auto place = [&](int k) { return at_end ? 1.0 - k * kSlideStep : k * kSlideStep; };
-    const double s = place(at_end ? slide_end(part) : slide_start(part));
-    const std::vector<double> distance = distances(shape_, across(s));
-    PlaneCut cut(shape_.view, shape_.triangles, part, distance);
-    const Index first = loop_at(cut.loops(), s);
-    if (first < 0) return place(0);
-    cut.separate(first);
-    const std::vector<CutSide> sides = cut.sides(band());
-    const CutSide labelled = at_end ? CutSide::ahead : CutSide::behind;
+  void cut_ends() {
+    const std::vector<Index> part = with_label(labels_, kRegionLabel);
+    const EndCutter cutter(shape_, stroke_, part);
+    const EndCut start = cutter.limb_start(), end = cutter.limb_end();
+    start_ = start.s;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      if (sides[i] == labelled) labels_[part[i]] = label;
+      const bool before = !start.off.empty() && start.off[i], beyond = !end.off.empty() && end.off[i];
+      if (before != beyond) labels_[part[i]] = before ? kStaticLabel : kFirstRigidLabel;
     }
-    return s;
+  }
+
+  /// Where planes cross, or a ring is cut by one of them only, static and rigid part would meet: what
+  /// of the rigid one is nearer to the static one than the gap joins the region.
+  void keep_ends_apart() {
+    const std::vector<double> distance = distances_from_static(kLeastGap * stroke_.curve.length());
+    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
+      if (labels_[t] != kFirstRigidLabel) continue;
+      for (const Index p : shape_.triangles.col(t)) {
+        if (distance[p] < kInfinity) labels_[t] = kRegionLabel;
+      }
+    }
+  }
+
+  /// Of the points beside the static part along edges, as far as `reach`, and 0 over one edge
+  /// however long it is; infinite beyond.
+  std::vector<double> distances_from_static(double reach) const {
+    const Triangles& triangles = shape_.triangles;
+    const auto points = static_cast<Index>(shape_.view.cols());
+    const std::vector<bool> is_static = corners_of([&](Index t) { return labels_[t] == kStaticLabel; });
+    const std::vector<bool> moves = corners_of([&](Index t) { return labels_[t] != kStaticLabel; });
+    const std::vector<bool> beside = corners_of([&](Index t) { return touches(t, is_static) && touches(t, moves); });
+    std::vector<double> distance(points, kInfinity);
+    for (Index p = 0; p < points; ++p) {
+      if (is_static[p] && moves[p]) distance[p] = 0.0;
+    }
+    spread_distances(shape_.view, triangles, triangles_of_points(triangles, points), reach, distance);
+    for (Index p = 0; p < points; ++p) {
+      if (beside[p]) distance[p] = 0.0;
+    }
+    return distance;
+  }
+
+  /// The corners of the triangles for which chosen(t) holds, as a flag a point.
+  template <class Chosen>
+  std::vector<bool> corners_of(const Chosen& chosen) const {
+    std::vector<bool> corners(shape_.view.cols(), false);
+    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
+      if (!chosen(t)) continue;
+      for (const Index p : shape_.triangles.col(t)) corners[p] = true;
+    }
+    return corners;
+  }
+
+  bool touches(Index triangle, const std::vector<bool>& points) const {
+    const auto& corners = shape_.triangles.col(triangle);
+    return points[corners[0]] || points[corners[1]] || points[corners[2]];
   }
 
   /// Of the loops that run under the drawn line, the one nearest to the eye; -1: none.
@@ -265,7 +200,7 @@ class RegionFinder {
     const Index first = loop_under(cut.loops(), ends);
     if (first < 0) return false;
     cut.separate(first);
-    const std::vector<CutSide> sides = cut.sides(band());
+    const std::vector<CutSide> sides = cut.sides(cut_band(shape_, stroke_));
     const CutSide off = far_side(part, sides);
     cut_off(part, sides, off);
     return true;
@@ -290,18 +225,15 @@ class RegionFinder {
   /// What is cut off hangs on the static part and joins it, or becomes a rigid part together with
   /// those that hang on it.
   void cut_off(const std::vector<Index>& part, const std::vector<CutSide>& sides, CutSide off) {
-    Index largest = kRegionLabel;
-    for (const Index label : labels_) largest = std::max(largest, label);
-    std::vector<bool> touched(shape_.view.cols(), false);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      if (sides[i] != off) continue;
-      for (const Index p : shape_.triangles.col(part[i])) touched[p] = true;
-    }
+    const Index largest = std::max(kRegionLabel, *std::max_element(labels_.begin(), labels_.end()));
+    std::vector<bool> is_off(labels_.size(), false);
+    for (std::size_t i = 0; i < part.size(); ++i) is_off[part[i]] = sides[i] == off;
+    // Also over one edge: what is between would be torn.
+    const std::vector<bool> own = corners_of([&](Index t) { return is_off[t]; });
+    const std::vector<bool> near = corners_of([&](Index t) { return touches(t, own); });
     std::vector<bool> hangs_on(largest + 1, false);
     for (Index t = 0; t < shape_.triangles.cols(); ++t) {
-      for (const Index p : shape_.triangles.col(t)) {
-        if (touched[p]) hangs_on[labels_[t]] = true;
-      }
+      if (touches(t, near)) hangs_on[labels_[t]] = true;
     }
     const Index label = hangs_on[kStaticLabel] ? kStaticLabel : largest + 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -320,26 +252,19 @@ class RegionFinder {
 
 }  // namespace
 
-Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels) {
-  LaidStroke laid;
-  laid.pixels = pixels;
-  laid.hits = hits_through(shape.camera, shape.view, shape.triangles, pixels);
-  const auto met =
-      std::find_if(laid.hits.begin(), laid.hits.end(), [](const std::vector<Hit>& hits) { return !hits.empty(); });
-  laid.depth = met != laid.hits.end() ? met->front().depth : shape.view.row(2).mean();
-  if (!shape.camera.sees(laid.depth)) {
-    return Status(ErrorCode::invalid_option, "camera.eye has the shape behind it; expected the shape in view");
-  }
-  Polyline nodes(2, pixels.cols());
-  for (Index i = 0; i < pixels.cols(); ++i) {
-    nodes.col(i) = shape.camera.at_depth(pixels.col(i), laid.depth);
-  }
-  laid.curve = PlaneCurve(std::move(nodes));
-  return laid;
-}
-
 Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions) {
   return RegionFinder(shape, stroke).find(partitions);
+}
+
+std::optional<std::array<Index, 2>> torn_edge(const Triangles& triangles, std::span<const Index> of_point) {
+  for (Index t = 0; t < triangles.cols(); ++t) {
+    for (const Index a : triangles.col(t)) {
+      for (const Index b : triangles.col(t)) {
+        if (of_point[a] > of_point[b] && of_point[a] != kRegionLabel && of_point[b] != kRegionLabel) return {{a, b}};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 Region region_from_labels(const Triangles& triangles, std::span<const Index> of_point) {

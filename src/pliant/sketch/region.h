@@ -2,13 +2,13 @@
 // Garland, section 4.2.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "pliant/core/status.h"
-#include "pliant/curves/plane_curve.h"
-#include "pliant/sketch/camera.h"
-#include "pliant/sketch/hits.h"
+#include "pliant/sketch/laid_stroke.h"
 
 namespace pliant {
 
@@ -16,28 +16,8 @@ inline constexpr Index kStaticLabel = 0;
 inline constexpr Index kRegionLabel = 1;
 inline constexpr Index kFirstRigidLabel = 2;
 
-/// A shape seen through a camera.
-struct SeenShape {
-  Camera camera;
-  Points view;  ///< its points in view coordinates, 3 x p
-  const Triangles& triangles;
-};
-
-/// A reference stroke laid into space.
-struct LaidStroke {
-  Polyline pixels;                     ///< filtered, of equal steps
-  std::vector<std::vector<Hit>> hits;  ///< of every pixel
-  double depth = 0.0;                  ///< of the plane parallel to the image
-  PlaneCurve curve;                    ///< on that plane, x and y of view coordinates
-};
-
-/// Section 4.1. The plane goes through the first hit of the first pixel; where that misses the
-/// shape, through that of the next pixel along the stroke that meets it; where none does, through
-/// the centroid. Errors: invalid_option (the plane is behind the eye).
-Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels);
-
 /// A label a triangle, and a label a point: static where any of its triangles is, else rigid where
-/// any is.
+/// any is. No edge joins points of two parts of which none is the region: it would be torn.
 struct Region {
   std::vector<Index> of_triangle;
   std::vector<Index> of_point;
@@ -45,12 +25,16 @@ struct Region {
   double start = 0.0;  ///< s at which the stroke's region begins
 };
 
-/// Cuts across both ends of the stroke, then along the partitions. An end that no plane cuts off
-/// (the stroke runs beyond the shape) leaves no static or no rigid part. A plane that would run
-/// through more than the limb (its loop comes near to quite other places of the stroke) moves along
-/// the stroke, at most over 40 % of it, until it crosses the limb alone.
-/// Errors: invalid_option (nothing is covered, a partition that cuts nothing off).
+/// Cuts across both ends of the stroke (`EndCutter`), each through the whole component, then along
+/// the partitions. What lies beyond the start is static, what lies beyond the end rigid, all else
+/// region: also what lies between the planes on other tubes of a ring, and what lies beyond both
+/// where the planes cross. Static and rigid part are kept apart by a share of the stroke's length.
+/// An end that no plane cuts off (the stroke runs beyond the shape) leaves no static or no rigid
+/// part. Errors: invalid_option (nothing is covered, a partition that cuts nothing off).
 Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions);
+
+/// Two points of an edge that would be torn, that of the larger label first.
+std::optional<std::array<Index, 2>> torn_edge(const Triangles& triangles, std::span<const Index> of_point);
 
 /// A region from given labels of the points, rigid parts numbered without gaps.
 Region region_from_labels(const Triangles& triangles, std::span<const Index> of_point);

@@ -71,6 +71,12 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
     return invalid("labels has no vertex with label " + std::to_string(missing) +
                    "; expected a region (1) and rigid parts numbered without gaps");
   }
+  if (const auto torn = torn_edge(shape.triangles(), of_point)) {
+    const auto [a, b] = *torn;
+    const auto name = [&](Index p) { return "labels[" + std::to_string(shape.vertex_of_point()[p]) + "]"; };
+    return invalid(name(a) + " is " + std::to_string(of_point[a]) + " beside " + name(b) + ", " +
+                   std::to_string(of_point[b]) + "; expected vertices of the region (1) between");
+  }
   return of_point;
 }
 

@@ -86,7 +86,8 @@ class Sketch final : public Deformation {
   Status set_pose(const SketchPose& pose);
 
   // -- Refinement (section 5.5), for the pose as it is.
-  /// Splits edges that are stretched by more than 1.5 and bent by more than pi / 24, and again.
+  /// Splits edges that are stretched by more than 1.5 and bent by more than pi / 24, and again, down
+  /// to the length of a step of the reference curve (5 pixels, or a 60th of it).
   /// triangles: those of the input, 3 x m ids. Replaces an earlier refinement; later poses move the
   /// added vertices too. Errors: invalid_shape (ids), too_large (beyond max_added).
   Status refine(std::span<const std::uint32_t> triangles, Index max_added = 1'000'000);

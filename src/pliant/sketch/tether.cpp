@@ -2,38 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 #include <utility>
 #include <vector>
+
+#include "pliant/geometry/edge_distance.h"
 
 namespace pliant {
 namespace {
 
 using Neighbour = std::pair<Index, double>;  // and the distance to it
-
-/// start + rate times the distance along edges, the least over the points with a finite start
-/// (Dijkstra).
-void spread_bounds(const std::vector<std::vector<Neighbour>>& neighbours, double rate, std::vector<double>& bounds) {
-  using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (Index i = 0; i < static_cast<Index>(bounds.size()); ++i) {
-    if (bounds[i] < std::numeric_limits<double>::infinity()) queue.push({bounds[i], i});
-  }
-  while (!queue.empty()) {
-    const auto [bound, i] = queue.top();
-    queue.pop();
-    if (bound > bounds[i]) continue;
-    for (const auto& [j, distance] : neighbours[i]) {
-      const double next = bound + rate * distance;
-      if (next < bounds[j]) {
-        bounds[j] = next;
-        queue.push({next, j});
-      }
-    }
-  }
-}
 
 }  // namespace
 
@@ -61,7 +39,10 @@ void tether(const Points& points, std::span<const Index> point_of_local, std::sp
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> bounds(point_of_local.size(), unbounded);
     for (std::size_t k = 0; k < pinned.size(); ++k) bounds[free + k] = sign * pinned[k] + slack;
-    spread_bounds(neighbours, rate, bounds);
+    const auto for_each_neighbour = [&](Index i, const auto& visit) {
+      for (const auto& [j, distance] : neighbours[i]) visit(j, rate * distance);
+    };
+    spread_distances(for_each_neighbour, unbounded, bounds);
     for (Index i = 0; i < free; ++i) values[i] = sign * std::min(sign * values[i], bounds[i]);
   }
 }
