@@ -16,7 +16,7 @@ namespace {
 
 // Beside a part it joins the region's s may differ from that part's by this and by this much a
 // length of the curve.
-constexpr double kTetherSlack = 0.1, tether_rate = 2.0;
+constexpr double kTetherSlack = 0.1, kTetherRate = 2.0;
 constexpr int kJointPasses = 8;  // joints lie on facets: their depths are averaged along the stroke
 
 Index count_of(const std::vector<Index>& items) { return static_cast<Index>(items.size()); }
@@ -128,7 +128,7 @@ void Limb::prepare_smoother() {
   const auto edges = local_edges(seen_.triangles, region_, local, count_of(point_of_local));
   pins_.resize(pinned_.size());
   for (std::size_t i = 0; i < pinned_.size(); ++i) pins_[i] = s_[pinned_[i]];
-  tether(seen_.view, point_of_local, edges, pins_, kTetherSlack, tether_rate / stroke_.curve.length(), raw_s_);
+  tether(seen_.view, point_of_local, edges, pins_, kTetherSlack, kTetherRate / stroke_.curve.length(), raw_s_);
   smoother_ = ParameterSmoother(seen_.view, point_of_local, count_of(free_), edges);
   raw_.resize(free_.size());
   solved_.resize(free_.size());

@@ -15,7 +15,7 @@
 namespace pliant {
 namespace {
 
-constexpr double kConcave = 1.0, convex = 0.2;  // eta
+constexpr double kConcave = 1.0, kConvex = 0.2;  // eta
 constexpr double kLeastCost = 0.01;             // of the length
 
 /// An edge of a triangle; equal edges stand together when sorted.
@@ -58,7 +58,7 @@ double cut_cost(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   const Eigen::Vector3d n = (b - a).cross(c - a);
   const Eigen::Vector3d m = (a - b).cross(d - b);
   const double bend = std::atan2(n.cross(m).norm(), n.dot(m));
-  const double eta = n.dot(d - a) > 0.0 ? kConcave : convex;
+  const double eta = n.dot(d - a) > 0.0 ? kConcave : kConvex;
   return length * std::max(kLeastCost, 1.0 - eta * bend / std::numbers::pi);
 }
 
