@@ -23,11 +23,12 @@ void spread_distances(const Neighbours& for_each_neighbour, double reach, std::v
     if (values[i] < std::numeric_limits<double>::infinity()) queue.push({values[i], i});
   }
   while (!queue.empty()) {
-    const auto [value, i] = queue.top();
+    const Entry nearest = queue.top();
+    const Index i = nearest.second;
     queue.pop();
-    if (value > values[i]) continue;
+    if (nearest.first > values[i]) continue;
     for_each_neighbour(i, [&](Index j, double length) {
-      const double next = value + length;
+      const double next = nearest.first + length;
       if (next > reach || next >= values[j]) return;
       values[j] = next;
       queue.push({next, j});

@@ -169,7 +169,9 @@ class Refiner {
   }
 
   void split(const Piece& piece) {
-    const auto& [corners, spans, of] = piece;
+    const std::array<std::uint32_t, 3>& corners = piece.corners;
+    const std::array<double, 3>& spans = piece.spans;
+    const std::uint32_t of = piece.of;
     std::int64_t middle[3];
     int count = 0;
     double half = 0.0;  // of the longest that is split
