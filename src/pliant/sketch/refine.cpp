@@ -5,7 +5,6 @@
 #include <numeric>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -92,13 +91,14 @@ class Refiner {
 
   /// The edges of fresh pieces that are stretched, each once.
   std::vector<Edge> stretched_edges() const {
-    std::unordered_set<std::uint64_t> seen;
+    std::unordered_map<std::uint64_t, Index> seen;
     std::vector<Edge> edges;
     for (const Piece& piece : fresh_) {
       for (int c = 0; c < 3; ++c) {
         const Edge edge = points_of(piece.corners[c], piece.corners[(c + 1) % 3]);
         if (edge[0] == edge[1] || (!moves(edge[0]) && !moves(edge[1]))) continue;
-        if (seen.insert(key(edge[0], edge[1])).second && is_stretched(edge, piece.spans[c])) edges.push_back(edge);
+        if (seen.try_emplace(key(edge[0], edge[1]), 0).second && is_stretched(edge, piece.spans[c]))
+          edges.push_back(edge);
       }
     }
     return edges;
