@@ -36,6 +36,7 @@ export async function buildPackage({ wasm = join(root, "build/wasm/bindings/wasm
     "#wasm/inline": async () => exported(gzipSync(await readFile(join(wasm, "pliant.wasm")), { level: 9 }).toString("base64")),
     "#worker-script": async () => exported(await script("worker/host.ts", wasm)),
     "#version": () => exported(version),
+    "#draco": dracoModule,
   };
   const inputs = Object.fromEntries(Object.entries(entries).map(([name, file]) => [name, join(source, file)]));
   await bundle({ input: inputs, plugins: [provide(modules, wasm)] }, { dir: out });
@@ -78,6 +79,17 @@ async function script(file, wasm) {
   const { output: [chunk] } = await build.generate({ ...output, format: "iife", codeSplitting: false });
   await build.close();
   return chunk.code;
+}
+
+/** Draco's decoder as a module of its own: it shall look for no file, in Node as little as elsewhere. */
+async function dracoModule() {
+  const [glue, wasm] = await Promise.all(["draco_decoder_gltf_nodejs.js", "draco_decoder_gltf.wasm"].map((name) =>
+    readFile(join(root, "node_modules/draco3dgltf", name))));
+  const hidden = ["process", "require", "__dirname", "window", "document", "importScripts", "exports", "module"];
+  return `const ${hidden.map((name) => `${name} = undefined`).join(", ")};
+    ${glue}
+    export const wasm = ${JSON.stringify(gzipSync(wasm, { level: 9 }).toString("base64"))};
+    export default DracoDecoderModule;`;
 }
 
 const exported = (value) => `export default ${JSON.stringify(value)};`;

@@ -26,3 +26,10 @@ declare module "#version" {
   const version: string;
   export default version;
 }
+
+/** The decoder of Draco for glTF, and its WASM, gzipped, in base64. */
+declare module "#draco" {
+  export const wasm: string;
+  const createDecoder: (options: { wasmBinary: ArrayBuffer }) => Promise<object>;
+  export default createDecoder;
+}

@@ -6,6 +6,7 @@ import { type Accessor, Document, Logger, type mat4, type Node, Primitive, WebIO
 import { ALL_EXTENSIONS } from "@gltf-transform/extensions";
 import { PliantError } from "../boundary/errors.js";
 import { NormalGroups } from "../shape/normals.js";
+import { decodersFor, withoutCompression } from "./compression.js";
 import type { Mesh } from "./files.js";
 import { triangleCorners } from "./refined.js";
 import { applyInverse, applyTo, directionBack, directionOut } from "./matrix.js";
@@ -45,7 +46,8 @@ export class Glb {
   /** Errors: parse-error. */
   static async read(bytes: Uint8Array): Promise<Glb> {
     try {
-      return new Glb(await io.readBinary(bytes as Uint8Array<ArrayBuffer>));
+      io.registerDependencies(await decodersFor(bytes));
+      return new Glb(withoutCompression(await io.readBinary(bytes as Uint8Array<ArrayBuffer>)));
     } catch (error) {
       throw new PliantError("parse-error", `not a readable .glb: ${(error as Error).message}`, { cause: error });
     }
