@@ -1,4 +1,4 @@
-// `npm test`: sets up, builds and runs every test.  npm test -- [native|wasm|js|page]...
+// `npm test`: sets up, builds and runs every test.  npm test -- [native|sanitize|wasm|js|page]...
 // The last line is `N passed, N failed`, over all suites. Nothing is skipped silently: a suite that
 // cannot be built, crashes, runs no test or skips one counts as failed.
 
@@ -13,6 +13,11 @@ const suites = {
   native: async () => {
     await buildTargets("release", ["pliant_tests"]);
     return runDoctest(join(root, "build/release/tests/pliant_tests"), []);
+  },
+  // The same tests with asserts, and with sanitizers that stop at an access out of bounds or undefined behaviour.
+  sanitize: async () => {
+    await buildTargets("sanitize", ["pliant_tests"]);
+    return runDoctest(join(root, "build/sanitize/tests/pliant_tests"), []);
   },
   wasm: async () => {
     await buildTargets("wasm", ["pliant_tests"]);
@@ -91,7 +96,7 @@ await main(async (args) => {
 
   heading("Summary");
   for (const { name, passed, failed, notes, seconds } of outcomes) {
-    console.log(`${name.padEnd(8)}${String(passed).padStart(5)} passed ${String(failed).padStart(4)} failed ` +
+    console.log(`${name.padEnd(9)}${String(passed).padStart(5)} passed ${String(failed).padStart(4)} failed ` +
       `${seconds.toFixed(0).padStart(5)} s${notes ? `   ${notes}` : ""}`);
   }
   const total = (key) => outcomes.reduce((sum, outcome) => sum + outcome[key], 0);
