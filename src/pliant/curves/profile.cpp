@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
+
+#include "pliant/core/message.h"
 
 namespace pliant {
 namespace {
 
 Status bad_point(const char* argument, std::size_t i, const Profile::Point& point, const char* expected) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s[%zu] is [%.6g, %.6g]; expected %s", argument, i, point.first, point.second,
-                expected);
-  return {ErrorCode::invalid_option, text};
+  return {ErrorCode::invalid_option,
+          message({argument, "[", i, "] is [", point.first, ", ", point.second, "]; expected ", expected})};
 }
 
 }  // namespace
 
 Result<Profile> Profile::create(std::span<const Point> points, const char* argument) {
   if (points.empty()) {
-    return Status(ErrorCode::invalid_option, std::string(argument) + " is empty; expected at least one point [s, f]");
+    return Status(ErrorCode::invalid_option, message({argument, " is empty; expected at least one point [s, f]"}));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [s, f] = points[i];
@@ -60,14 +58,13 @@ Profile Profile::times(double k) const {
 }
 
 Profile Profile::blend(const Profile& a, const Profile& b, double t) {
-  std::vector<double> places;
-  for (const Profile* profile : {&a, &b}) {
-    for (const Point& point : profile->points_) places.push_back(point.first);
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<Point> both(a.points_.size() + b.points_.size());
+  const auto lower = [](const Point& x, const Point& y) { return x.first < y.first; };
+  std::merge(a.points_.begin(), a.points_.end(), b.points_.begin(), b.points_.end(), both.begin(), lower);
   std::vector<Point> points;
-  for (const double s : places) {
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const double s = both[i].first;
+    if (i > 0 && s == both[i - 1].first) continue;
     const double left = (1.0 - t) * a.before(s) + t * b.before(s);
     const double right = (1.0 - t) * a(s) + t * b(s);
     if (left != right) points.emplace_back(s, left);

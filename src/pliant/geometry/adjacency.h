@@ -1,12 +1,12 @@
 // Who touches whom: triangles around points, unique edges with their triangles, components.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "pliant/core/sort.h"
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -31,25 +31,25 @@ Incidence triangles_of_points(const Triangles& triangles, Index points);
 /// `around`: triangles_of_points of the same triangles.
 template <class Visit>
 void for_each_edge(const Triangles& triangles, const Incidence& around, Visit&& visit) {
-  std::vector<std::pair<Index, Index>> ends;  // (other end, triangle)
+  std::vector<Keyed> ends;  // the other end, triangle
   std::vector<Index> sharing;
   for (Index a = 0; a < around.rows(); ++a) {
     ends.clear();
     for (const Index t : around.row(a)) {
       for (const Index b : triangles.col(t)) {
         if (b > a) {
-          ends.emplace_back(b, t);
+          ends.push_back({key_of(0, b), t});
         }
       }
     }
-    std::sort(ends.begin(), ends.end());
+    sort_keyed(ends);
     for (std::size_t i = 0; i < ends.size();) {
-      const Index b = ends[i].first;
+      const std::uint64_t b = ends[i].key;
       sharing.clear();
-      for (; i < ends.size() && ends[i].first == b; ++i) {
-        sharing.push_back(ends[i].second);
+      for (; i < ends.size() && ends[i].key == b; ++i) {
+        sharing.push_back(ends[i].index);
       }
-      visit(a, b, std::span<const Index>(sharing));
+      visit(a, static_cast<Index>(b), std::span<const Index>(sharing));
     }
   }
 }

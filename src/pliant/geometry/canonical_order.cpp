@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "pliant/core/sort.h"
 #include "pliant/linalg/svd3.h"
 
 namespace pliant {
@@ -58,44 +59,36 @@ class Sorter {
   }
 
   std::vector<Index> sorted() {
-    std::vector<Keyed> all(points_.cols());
-    for (Index p = 0; p < points_.cols(); ++p) {
-      all[p].second = p;
-    }
-    sort(all, 0);
-    std::vector<Index> order(all.size());
-    std::transform(all.begin(), all.end(), order.begin(), [](const Keyed& k) { return k.second; });
+    std::vector<Index> order(points_.cols());
+    std::iota(order.begin(), order.end(), Index{0});
+    sort(order, 0);
     return order;
   }
 
  private:
-  using Keyed = std::pair<double, Index>;
-  static constexpr int kLevels = 4;  // the distance, then three coordinates
+  static constexpr int kInput = 4;   // levels before it: the distance, then three coordinates in the frame
+  static constexpr int kLevels = 7;  // the last three: the input's own coordinates, which no two points share
 
-  double key(Index p, int level) const {
+  double measure(Index p, int level) const {
+    if (level >= kInput) return points_(level - kInput, p);
     return level == 0 ? centered_.col(p).norm() : frame_.row(level - 1).dot(centered_.col(p));
   }
 
-  /// Sorts by the key of `level`, and runs whose keys follow each other within the tolerance by the
-  /// next one; in the end by the exact input coordinates, which no two points share.
-  void sort(std::span<Keyed> range, int level) {
-    if (level == kLevels) {
-      std::sort(range.begin(), range.end(), [this](const Keyed& a, const Keyed& b) {
-        return std::lexicographical_compare(points_.col(a.second).begin(), points_.col(a.second).end(),
-                                            points_.col(b.second).begin(), points_.col(b.second).end());
-      });
-      return;
-    }
-    for (Keyed& entry : range) {
-      entry.first = key(entry.second, level);
-    }
-    std::sort(range.begin(), range.end());
+  /// Sorts by the measure of `level`, and runs that follow each other within the tolerance (among the input's own
+  /// coordinates: that are the same) by the next one.
+  void sort(std::span<Index> range, int level) {
+    const double tolerance = level < kInput ? tolerance_ : 0.0;
+    std::vector<Keyed> items;
+    items.reserve(range.size());
+    for (const Index p : range) items.push_back({key_of(measure(p, level)), p});
+    sort_keyed(items);
+    for (std::size_t i = 0; i < range.size(); ++i) range[i] = items[i].index;
     for (std::size_t begin = 0; begin < range.size();) {
       std::size_t end = begin + 1;
-      while (end < range.size() && range[end].first - range[end - 1].first <= tolerance_) {
+      while (end < range.size() && measure(range[end], level) - measure(range[end - 1], level) <= tolerance) {
         ++end;
       }
-      if (end - begin > 1) {
+      if (end - begin > 1 && level + 1 < kLevels) {
         sort(range.subspan(begin, end - begin), level + 1);
       }
       begin = end;
@@ -124,10 +117,14 @@ Triangles canonical_triangles(const Shape& shape, const std::vector<Index>& orde
     }
     std::sort(sorted[t].begin(), sorted[t].end());
   }
-  std::sort(sorted.begin(), sorted.end());
   Triangles triangles(3, shape.triangles().cols());
-  for (Index t = 0; t < triangles.cols(); ++t) {
-    triangles.col(t) << sorted[t][0], sorted[t][1], sorted[t][2];
+  const auto count = static_cast<Index>(triangles.cols());
+  // By the latter two corners, then by the first: equal ones stay as they are.
+  const std::vector<Index> by_latter = order_by(count, [&](Index t) { return key_of(sorted[t][1], sorted[t][2]); });
+  const std::vector<Index> by_first = order_by(count, [&](Index i) { return key_of(0, sorted[by_latter[i]][0]); });
+  for (Index t = 0; t < count; ++t) {
+    const auto& [a, b, c] = sorted[by_latter[by_first[t]]];
+    triangles.col(t) << a, b, c;
   }
   return triangles;
 }

@@ -122,13 +122,16 @@ void Collapser::push(Index p) {
 /// With penalties.
 Collapser::Collapse Collapser::cheapest(Index p) {
   collect_choices(p);
-  std::sort(choices_.begin(), choices_.end());
   thinnest_before_ = 0.0;
   for (const Index t : around_[p]) {
     thinnest_before_ = std::max(thinnest_before_, aspect_ratio(corners(t)));
   }
-  Collapse best{std::numeric_limits<double>::infinity(), p, choices_.front().second, stamp_[p]};
-  for (const auto& [price, onto] : choices_) {
+  Collapse best{std::numeric_limits<double>::infinity(), p, std::min_element(choices_.begin(), choices_.end())->second,
+                stamp_[p]};
+  // In ascending order; mostly one of the first two decides.
+  for (auto next = choices_.begin(); next != choices_.end(); ++next) {
+    std::iter_swap(next, std::min_element(next, choices_.end()));
+    const auto [price, onto] = *next;
     if (price >= best.cost) {
       break;
     }

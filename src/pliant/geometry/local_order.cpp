@@ -1,8 +1,8 @@
 #include "pliant/geometry/local_order.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <utility>
+
+#include "pliant/core/sort.h"
 
 namespace pliant {
 namespace {
@@ -25,18 +25,11 @@ std::vector<Index> local_order(const Points& points) {
   const Eigen::Vector3d low = points.rowwise().minCoeff();
   const double side = (points.colwise() - low).maxCoeff();
   const double scale = side > 0.0 ? ((1 << kBits) - 1) / side : 0.0;
-  std::vector<std::pair<std::uint64_t, Index>> keys;
-  keys.reserve(static_cast<std::size_t>(points.cols()));
-  for (Index p = 0; p < points.cols(); ++p) {
+  return order_by(static_cast<Index>(points.cols()), [&](Index p) {
     std::uint64_t key = 0;
     for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>((points(k, p) - low[k]) * scale)) << k;
-    keys.emplace_back(key, p);
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Index> order;
-  order.reserve(keys.size());
-  for (const auto& [key, p] : keys) order.push_back(p);
-  return order;
+    return key;
+  });
 }
 
 }  // namespace pliant

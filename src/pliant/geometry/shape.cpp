@@ -4,11 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
+#include "pliant/core/sort.h"
 #include "pliant/geometry/adjacency.h"
 #include "pliant/geometry/local_order.h"
 #include "pliant/geometry/normals.h"
@@ -16,42 +17,28 @@
 namespace pliant {
 namespace {
 
-std::string number(double value) {
-  if (std::isnan(value)) {
-    return "NaN";
-  }
-  if (std::isinf(value)) {
-    return value > 0 ? "Infinity" : "-Infinity";
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-Status invalid(const std::string& message) { return {ErrorCode::invalid_shape, message}; }
+Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
 Status check_length(const char* argument, std::size_t length, int width) {
   if (length % width != 0) {
-    return invalid(std::string(argument) + " has length " + std::to_string(length) + "; expected a multiple of " +
-                   std::to_string(width));
+    return invalid({argument, " has length ", length, "; expected a multiple of ", width});
   }
   return {};
 }
 
 Status check_count(const char* argument, const char* unit, std::size_t count, Index limit) {
   if (count > static_cast<std::size_t>(limit)) {
-    return {ErrorCode::too_large, std::string(argument) + " has " + std::to_string(count) + " " + unit +
-                                      "; expected at most " + std::to_string(limit)};
+    return {ErrorCode::too_large, message({argument, " has ", count, " ", unit, "; expected at most ", limit})};
   }
   return {};
 }
 
 Status check_positions(std::span<const double> positions, int dimension) {
   if (dimension != 2 && dimension != 3) {
-    return invalid("dimension is " + std::to_string(dimension) + "; expected 2 or 3");
+    return invalid({"dimension is ", dimension, "; expected 2 or 3"});
   }
   if (positions.empty()) {
-    return invalid("positions is empty; expected at least one vertex");
+    return invalid({"positions is empty; expected at least one vertex"});
   }
   if (Status status = check_length("positions", positions.size(), dimension); !status.ok()) {
     return status;
@@ -64,8 +51,8 @@ Status check_positions(std::span<const double> positions, int dimension) {
     // Written so that NaN fails too.
     if (!(std::abs(positions[i]) <= Shape::kMaxCoordinate)) {
       const std::string expected =
-          std::isfinite(positions[i]) ? "a magnitude of at most " + number(Shape::kMaxCoordinate) : "a finite number";
-      return invalid("positions[" + std::to_string(i) + "] is " + number(positions[i]) + "; expected " + expected);
+          std::isfinite(positions[i]) ? message({"a magnitude of at most ", Shape::kMaxCoordinate}) : "a finite number";
+      return invalid({"positions[", i, "] is ", positions[i], "; expected ", expected});
     }
   }
   return {};
@@ -80,8 +67,7 @@ Status check_triangles(std::span<const std::uint32_t> triangles, std::size_t ver
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i] >= vertices) {
-      return invalid("triangles[" + std::to_string(i) + "] is " + std::to_string(triangles[i]) +
-                     "; expected a vertex id below " + std::to_string(vertices));
+      return invalid({"triangles[", i, "] is ", triangles[i], "; expected a vertex id below ", vertices});
     }
   }
   return {};
@@ -150,8 +136,8 @@ Result<std::shared_ptr<const Shape>> Shape::create(std::span<const double> posit
 
   const Eigen::Vector3d extent = shape->points_.rowwise().maxCoeff() - shape->points_.rowwise().minCoeff();
   if (shape->points_.cols() > 1 && extent.maxCoeff() < kMinExtent) {
-    return invalid("positions span " + number(extent.maxCoeff()) + "; expected at least " + number(kMinExtent) +
-                   ", or one position only");
+    return invalid(
+        {"positions span ", extent.maxCoeff(), "; expected at least ", kMinExtent, ", or one position only"});
   }
   shape->diagonal_ = extent.norm();
   shape->keep_triangles(triangles);
@@ -218,15 +204,9 @@ std::shared_ptr<const Shape> Shape::in_local_order() const {
   shape->points_ = points_(Eigen::all, order);
   for (std::size_t i = 0; i < order.size(); ++i) shape->vertex_of_point_[i] = vertex_of_point_[order[i]];
   for (Index& point : shape->point_of_vertex_) point = rank[point];
-  std::vector<std::array<Index, 3>> triangles;
-  for (const auto& corners : triangles_.colwise())
-    triangles.push_back({rank[corners[0]], rank[corners[1]], rank[corners[2]]});
-  std::stable_sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) {
-    return std::min({a[0], a[1], a[2]}) < std::min({b[0], b[1], b[2]});
-  });
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int c = 0; c < 3; ++c) shape->triangles_(c, static_cast<Index>(t)) = triangles[t][c];
-  }
+  const Triangles ranked = triangles_.unaryExpr([&rank](Index point) { return rank[point]; });
+  shape->triangles_ = ranked(Eigen::all, order_by(static_cast<Index>(ranked.cols()),
+                                                  [&](Index t) { return key_of(0, ranked.col(t).minCoeff()); }));
   return shape;
 }
 

@@ -1,9 +1,9 @@
 #include "pliant/geometry/simplify.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 
+#include "pliant/core/message.h"
 #include "pliant/geometry/canonical_order.h"
 #include "pliant/geometry/collapser.h"
 
@@ -16,13 +16,13 @@ Status check(const Shape& shape, const SimplifyOptions& options) {
     return {ErrorCode::invalid_option, "shape has no triangles; expected a mesh to simplify"};
   }
   if (options.target_points < 1 || options.target_points > points) {
-    return {ErrorCode::invalid_option, "target_points is " + std::to_string(options.target_points) +
-                                           "; expected 1 to " + std::to_string(points) + ", the points of the shape"};
+    return {ErrorCode::invalid_option, message({"target_points is ", options.target_points, "; expected 1 to ", points,
+                                                ", the points of the shape"})};
   }
   // An equilateral triangle has 1.15.
   if (!(options.max_aspect_ratio >= 2.0)) {
     return {ErrorCode::invalid_option,
-            "max_aspect_ratio is " + std::to_string(options.max_aspect_ratio) + "; expected at least 2"};
+            message({"max_aspect_ratio is ", options.max_aspect_ratio, "; expected at least 2"})};
   }
   return {};
 }

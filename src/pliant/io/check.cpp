@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pliant/io/message.h"
+#include "pliant/core/message.h"
 
 namespace pliant::io {
 
@@ -11,8 +11,7 @@ Status check_finite(std::span<const double> values, const char* name) {
     if (std::isfinite(values[i])) {
       continue;
     }
-    const char* value = std::isnan(values[i]) ? "NaN" : values[i] > 0 ? "Infinity" : "-Infinity";
-    return {ErrorCode::invalid_shape, message({name, "[", i, "] is ", value, "; expected a finite number"})};
+    return {ErrorCode::invalid_shape, message({name, "[", i, "] is ", values[i], "; expected a finite number"})};
   }
   return {};
 }

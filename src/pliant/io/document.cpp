@@ -2,11 +2,11 @@
 
 #include <string>
 
+#include "pliant/core/message.h"
 #include "pliant/geometry/shape.h"
 #include "pliant/io/check.h"
 #include "pliant/io/draft.h"
 #include "pliant/io/memory.h"
-#include "pliant/io/message.h"
 #include "pliant/io/obj.h"
 #include "pliant/io/off.h"
 #include "pliant/io/ply.h"

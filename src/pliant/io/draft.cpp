@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "pliant/core/message.h"
 #include "pliant/io/check.h"
-#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {

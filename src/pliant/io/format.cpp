@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "pliant/io/message.h"
+#include "pliant/core/message.h"
 
 namespace pliant::io {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pliant/core/message.h"
 #include "pliant/io/lines.h"
-#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 #include "pliant/io/obj_faces.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "pliant/core/message.h"
 #include "pliant/io/lines.h"
-#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {

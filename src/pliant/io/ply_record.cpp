@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "pliant/core/message.h"
 #include "pliant/io/bytes.h"
 #include "pliant/io/lines.h"
-#include "pliant/io/message.h"
 #include "pliant/io/number_text.h"
 
 namespace pliant::io {

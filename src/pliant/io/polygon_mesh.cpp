@@ -1,6 +1,6 @@
 #include "pliant/io/polygon_mesh.h"
 
-#include "pliant/io/message.h"
+#include "pliant/core/message.h"
 
 namespace pliant::io {
 

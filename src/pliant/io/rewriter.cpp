@@ -1,6 +1,6 @@
 #include "pliant/io/rewriter.h"
 
-#include "pliant/io/message.h"
+#include "pliant/core/message.h"
 
 namespace pliant::io {
 

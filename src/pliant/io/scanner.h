@@ -8,11 +8,11 @@
 #include <string>
 #include <string_view>
 
+#include "pliant/core/message.h"
 #include "pliant/core/status.h"
 #include "pliant/io/bytes.h"
 #include "pliant/io/draft.h"
 #include "pliant/io/format.h"
-#include "pliant/io/message.h"
 #include "pliant/io/polygon_mesh.h"
 
 namespace pliant::io {

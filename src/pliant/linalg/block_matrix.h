@@ -1,11 +1,11 @@
 // A symmetric matrix of dense blocks over a graph: one diagonal block a node, one block an edge.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
+#include "pliant/core/sort.h"
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -35,11 +35,12 @@ struct BlockMatrix {
   }
   /// Sets the edges and their scalars (B is 1) from entries in any order; those of one edge are
   /// summed in the order given.
-  void sum_off_diagonal(std::vector<std::pair<Edge, double>> entries) {
-    std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  void sum_off_diagonal(const std::vector<std::pair<Edge, double>>& entries) {
     edges.clear();
     off_diagonal.clear();
-    for (const auto& [edge, value] : entries) {
+    const auto key = [&](Index i) { return key_of(entries[i].first[0], entries[i].first[1]); };
+    for (const Index i : order_by(static_cast<Index>(entries.size()), key)) {
+      const auto& [edge, value] = entries[i];
       if (edges.empty() || edges.back() != edge) {
         edges.push_back(edge);
         off_diagonal.push_back(0.0);

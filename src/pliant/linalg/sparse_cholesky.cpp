@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <string>
 
+#include "pliant/core/message.h"
 #include "pliant/linalg/dense_kernels.h"
 #include "pliant/linalg/elimination.h"
 #include "pliant/linalg/ordering.h"
@@ -176,9 +176,8 @@ Status SparseCholesky::prepare(const BlockMatrix& matrix) {
   const std::array<std::size_t, 2> stacks = stack_sizes();
   const std::size_t bytes = (factor_size_ + stacks[0] + stacks[1]) * sizeof(double);
   if (bytes > kMaxBytes) {
-    return {ErrorCode::too_large, "the system of " + std::to_string(rows()) + " unknowns needs a factor of " +
-                                      std::to_string(bytes >> 20) + " MiB; expected at most " +
-                                      std::to_string(kMaxBytes >> 20)};
+    return {ErrorCode::too_large, message({"the system of ", rows(), " unknowns needs a factor of ", bytes >> 20,
+                                           " MiB; expected at most ", kMaxBytes >> 20})};
   }
   place_entries(matrix);
   panels_.clear();

@@ -132,7 +132,7 @@ BlockMatrix ArapModel::matrix() const {
       }
     }
   }
-  matrix.sum_off_diagonal(std::move(far));
+  matrix.sum_off_diagonal(far);
   return matrix;
 }
 

@@ -143,7 +143,7 @@ BlockMatrix EdgeMaterialModel::matrix() const {
       for (int b = 0; b < a; ++b) add(points[a], points[b], bend * row[a] * row[b]);
     }
   }
-  matrix.sum_off_diagonal(std::move(entries));
+  matrix.sum_off_diagonal(entries);
   return matrix;
 }
 

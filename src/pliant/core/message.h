@@ -1,4 +1,4 @@
-// Messages put together from words and numbers in one call. Internal to io.
+// Messages put together from words and numbers in one call; the one way to build them.
 #pragma once
 
 #include <concepts>
@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace pliant::io {
+namespace pliant {
 
 /// A word or a number of a message.
 class Piece {
@@ -30,7 +30,8 @@ class Piece {
 
 using Pieces = std::initializer_list<Piece>;
 
-/// The pieces one behind the other. They refer to what they were made of: for use at once.
+/// The pieces one behind the other: whole numbers with every digit, others with six significant ones and spelled as
+/// JavaScript does (1e-7, 2.5e+30, NaN, -Infinity). They refer to what they were made of: for use at once.
 std::string message(Pieces pieces);
 
-}  // namespace pliant::io
+}  // namespace pliant
