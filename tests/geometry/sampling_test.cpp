@@ -44,9 +44,10 @@ TEST_CASE("samples are as many as asked for, far apart, and leave no hole") {
   for (const test::Mesh& mesh : {test::potato(4), test::bumpy_plane(41, 4, 0.02), test::torus(48, 24),
                                  test::tube(40, 40), test::box(3, 1, 1, 0.5)}) {
     const auto shape = test::shape_of(mesh);
+    const auto size = static_cast<Index>(shape->points().cols());
     for (const Index count : {10, 57, 200}) {
-      const Points samples = sample_surface(*shape, std::min(count, shape->input_size()), 1);
-      REQUIRE(samples.cols() == std::min<Eigen::Index>(count, shape->input_size()));
+      const Points samples = sample_surface(*shape, std::min(count, size), 1);
+      REQUIRE(samples.cols() == std::min(count, size));
       const Spread spread = spread_of(samples);
       CHECK(spread.least > 0.8 * spread.mean);
       for (Index p = 0; p < shape->points().cols(); ++p) {
