@@ -3,6 +3,7 @@
 // on
 //   a sphere with six symmetrised neighbours;
 // - carrying: the plain loop of eq. 2 over the same data.
+#include <algorithm>
 #include <random>
 #include <set>
 #include <utility>
@@ -126,13 +127,17 @@ double step_ms(EmbeddedGraph& deformer) {
   return now() - start;
 }
 
-/// From the first step after a grab (analysis and factorisation included) to within 1e-4 of the
-/// converged energy.
-double cold_ms(const Scene& scene, const std::vector<Index>& moved, Yardstick& yardstick, int& iterations) {
-  const auto reference = scene.grabbed(moved);
-  Scene::drag(*reference, 1.0);
-  if (!run(*reference, {500, 1e-13}).ok()) std::abort();
-  const double enough = reference->energy().total * (1.0 + 1e-4);
+double converged_energy(const Scene& scene, const std::vector<Index>& moved) {
+  const auto deformer = scene.grabbed(moved);
+  Scene::drag(*deformer, 1.0);
+  if (!run(*deformer, {500, 1e-13}).ok()) std::abort();
+  return deformer->energy().total;
+}
+
+/// From the first step after a grab (analysis and factorisation included) to within 1e-4 of `energy`.
+double cold_ms(const Scene& scene, const std::vector<Index>& moved, double energy, Yardstick& yardstick,
+               int& iterations) {
+  const double enough = energy * (1.0 + 1e-4);
   std::vector<double> times;
   for (int i = 0; i < 15; ++i) {
     const auto deformer = scene.grabbed(moved);
@@ -168,19 +173,21 @@ void bench_solving(const Reporter& reporter, Index nodes) {
   if (!reporter.wants(name)) return;
   Yardstick yardstick(nodes);
   const Scene scene({.node_count = nodes});
+  const Scene newton({.node_count = nodes, .solver = EmbeddedGraphSolver::gauss_newton});
   // The paper's 27 constraints (table 1), and a handle as a page makes them: every vertex of a
   // part.
   for (std::size_t count : {std::size_t{27}, std::size_t{4727}}) {
     const std::vector<Index> moved = every(pick(scene.mesh(), 1.1, 9.0), count);
     const std::string constraints = ", " + std::to_string(moved.size()) + " constraints";
     int iterations = 0;
-    const double cold = cold_ms(scene, moved, yardstick, iterations);
+    // The better of both solvers: one that stalls must not be its own measure.
+    const double energy = std::min(converged_energy(scene, moved), converged_energy(newton, moved));
+    const double cold = cold_ms(scene, moved, energy, yardstick, iterations);
     reporter.report(name + " cold solve to 1e-4" + constraints, cold, yardstick.take_median(),
                     std::to_string(iterations) + " iterations");
     const double warm = warm_ms(scene, moved, &yardstick);
     reporter.report(name + " warm step" + constraints, warm, yardstick.take_median());
   }
-  const Scene newton({.node_count = nodes, .solver = EmbeddedGraphSolver::gauss_newton});
   const double step = warm_ms(newton, {}, &yardstick);
   reporter.report(name + " Gauss-Newton step", step, yardstick.take_median());
 }

@@ -19,7 +19,7 @@ Method embedded_graph(const char* name, EmbeddedGraphOptions options) {
             REQUIRE(deformer.ok());
             return std::move(*deformer);
           },
-          kIsotropy};
+          kIsotropy, options.exact_handles};
 }
 
 /// Sets each of these options on a living deformer of class D.
@@ -73,6 +73,14 @@ std::vector<Method> methods() {
       // the scene changes.
       edge_material("edge-material", {.lambda = 3e-3}),
       edge_material("edge-material, field", {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
+  };
+}
+
+std::vector<Method> exact_methods() {
+  return {
+      embedded_graph("embedded-graph, exact", {.exact_handles = true}),
+      embedded_graph("embedded-graph, gauss-newton, exact",
+                     {.solver = EmbeddedGraphSolver::gauss_newton, .exact_handles = true}),
   };
 }
 

@@ -132,6 +132,25 @@ TEST_CASE("no node turns inside out when handles turn far at once") {
   }
 }
 
+TEST_CASE("both solvers end in the same minimum where nodes are about to collapse") {
+  const auto mesh = test::tube(16, 40, 0.3, 1.5);
+  for (double degrees : {80.0, 110.0}) {
+    CAPTURE(degrees);
+    std::vector<double> energies;
+    for (auto solver : {EmbeddedGraphSolver::automatic, EmbeddedGraphSolver::gauss_newton}) {
+      const auto deformer = make(mesh, {.node_count = 200, .solver = solver});
+      const HandleId handle = test::fix_bottom_grab_top(*deformer, mesh);
+      REQUIRE(deformer->move_handle(handle, test::turn(degrees, {1, 0, 0.3}, {0, 0, 1.5}, {0.2, 0, -0.5})).ok());
+      CHECK(test::settle(*deformer, 1000, 1e-6).converged);
+      const Energy energy = deformer->energy();
+      CHECK(energy.terms.back().name == "barrier");
+      energies.push_back(energy.total);
+      CHECK(least_determinant(*deformer) < 0.1);
+    }
+    CHECK(energies[0] == doctest::Approx(energies[1]).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("targets given as positions know turns up to half a turn") {
   const auto mesh = test::tube(20, 60, 0.15, 2.0);
   const auto by_motion = make(mesh, {.node_count = 80}), by_targets = make(mesh, {.node_count = 80});
@@ -164,6 +183,28 @@ TEST_CASE("exact handles are met where the graph can meet them") {
     };
     CHECK(violation(false) > 1e-4);  // a soft constraint leaves a gap ...
     CHECK(violation(true) < 1e-8);   // ... an exact one none
+  }
+}
+
+TEST_CASE("exact handles are met by regions that turn, in at most twice the steps of soft ones") {
+  const auto mesh = test::tube(24, 60, 0.3, 2.0);
+  for (auto solver : {EmbeddedGraphSolver::automatic, EmbeddedGraphSolver::gauss_newton}) {
+    EmbeddedGraphOptions options{.node_count = 150, .solver = solver};
+    int soft_steps = 0;
+    for (bool exact : {false, true}) {
+      options.exact_handles = exact;
+      const auto deformer = make(mesh, options);
+      const HandleId id = test::fix_bottom_grab_top(*deformer, mesh);
+      REQUIRE(deformer->move_handle(id, test::turn(75, {1, 0, 0.2}, {0, 0, 2}, {0.2, 0.1, -0.1})).ok());
+      const StepReport report = test::settle(*deformer, 400, 1e-6);
+      CHECK(report.converged);
+      const Handle& handle = deformer->handles().front();
+      const double gap = distance(deformer->point_positions()(Eigen::all, handle.points), handle.targets);
+      if (!exact) soft_steps = report.iteration;
+      if (!exact) continue;
+      CHECK(gap < 1e-5 * deformer->shape().diagonal());
+      CHECK(report.iteration <= 2 * soft_steps);
+    }
   }
 }
 

@@ -146,8 +146,11 @@ embedded::Terms EmbeddedGraph::Impl::terms(const EmbeddedGraph& self) const {
   energy.set_up(graph, std::vector<bool>(graph.size(), false), rest, rows_of(graph.influences, constrained.points),
                 weights());
   energy.constraints().set_targets(graph.scaled(constrained.targets) - rest);
-  energy.evaluate(embedded::unknowns_of(pose));
-  return energy.terms();
+  const embedded::Vector x = embedded::unknowns_of(pose);
+  energy.evaluate(x);
+  embedded::Terms terms = energy.terms();
+  terms.barrier = embedded::barrier::sum(energy, x);
+  return terms;
 }
 
 PackedMaps EmbeddedGraph::Impl::position_maps() const {
@@ -212,10 +215,12 @@ Result<StepReport> EmbeddedGraph::do_step(double tolerance) {
 Energy EmbeddedGraph::energy() const {
   const embedded::Weights w = impl_->weights();
   const embedded::Terms terms = impl_->terms(*this);
-  return {terms.total(w),
-          {{"rotation", terms.rotation, w.rotation},
-           {"regularization", terms.regularization, w.regularization},
-           {"constraint", terms.constraint, w.constraint}}};
+  Energy energy{terms.total(w),
+                {{"rotation", terms.rotation, w.rotation},
+                 {"regularization", terms.regularization, w.regularization},
+                 {"constraint", terms.constraint, w.constraint}}};
+  if (terms.barrier > 0.0) energy.terms.push_back({"barrier", terms.barrier, w.rotation});
+  return energy;
 }
 
 Counters EmbeddedGraph::counters() const {

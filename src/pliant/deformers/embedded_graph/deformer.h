@@ -21,6 +21,8 @@ class EmbeddedGraph final : public Deformer {
   /// were added: 0 where no node stands out. Errors: invalid_option (max_nodes < 1), too_large.
   Result<Index> refine(Index max_nodes);
 
+  /// Terms: `rotation`, `regularization`, `constraint` (eq. 5 to 8) and, where a node is near collapse,
+  /// `barrier` (barrier.h), weighted as `rotation`.
   Energy energy() const override;
   Counters counters() const override;
   Points point_positions() const override;

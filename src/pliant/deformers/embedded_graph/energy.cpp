@@ -89,7 +89,6 @@ void add_outer(double* block, const Eigen::Vector4d& rows, const Eigen::Vector4d
 double Quartic::first_minimum() const {
   // Newton on the derivative from the left, safeguarded by a bracket. The derivative starts below
   // zero and its leading coefficient is not negative, so it crosses zero unless the course is flat.
-  auto slope = [&](double a) { return c[1] + a * (2 * c[2] + a * (3 * c[3] + a * 4 * c[4])); };
   auto curvature = [&](double a) { return 2 * c[2] + a * (6 * c[3] + a * 12 * c[4]); };
   if (!(c[1] < 0.0)) return 0.0;
   double low = 0.0, high = 1.0;
@@ -182,16 +181,17 @@ double GraphEnergy::rotation_terms(const Vector& x) const {
 
 void GraphEnergy::evaluate(const Vector& x) {
   regularization_residuals(x, reg_);
-  terms_ = {rotation_terms(x), dot(reg_, reg_), constraints_.evaluate(x)};
+  terms_ = {rotation_terms(x), dot(reg_, reg_), constraints_.evaluate(x), 0.0};
+  evaluated_constraint_ = terms_.constraint;
 }
 
 void GraphEnergy::advance(double alpha, const Vector& x) {
   const double constraint = terms_.constraint + alpha * (con_along_.slope + alpha * con_along_.curvature);
-  // What is left after such a fall is mostly rounding.
-  if (!(constraint > 1e-4 * terms_.constraint)) return evaluate(x);
+  // What is left after such a fall, in however many steps, is mostly rounding.
+  if (!(constraint > 1e-4 * evaluated_constraint_)) return evaluate(x);
   reg_ += alpha * reg_along_;
   constraints_.advance(alpha);
-  terms_ = {rotation_terms(x), dot(reg_, reg_), constraint};
+  terms_ = {rotation_terms(x), dot(reg_, reg_), constraint, 0.0};
 }
 
 void GraphEnergy::retreat(double alpha, const Terms& terms) {

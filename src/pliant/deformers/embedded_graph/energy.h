@@ -27,9 +27,10 @@ struct Terms {
   double rotation = 0.0;
   double regularization = 0.0;
   double constraint = 0.0;
+  double barrier = 0.0;  ///< of barrier.h, weighted as rotation; GraphEnergy leaves it 0
 
   double total(const Weights& w) const {
-    return w.rotation * rotation + w.regularization * regularization + w.constraint * constraint;
+    return w.rotation * (rotation + barrier) + w.regularization * regularization + w.constraint * constraint;
   }
 };
 
@@ -37,6 +38,7 @@ struct Terms {
 struct Quartic {
   std::array<double, 5> c{};
   double value(double alpha) const { return c[0] + alpha * (c[1] + alpha * (c[2] + alpha * (c[3] + alpha * c[4]))); }
+  double slope(double alpha) const { return c[1] + alpha * (2.0 * c[2] + alpha * (3.0 * c[3] + alpha * 4.0 * c[4])); }
   /// Smallest alpha > 0 at which the function stops falling; c[1] < 0. 0 where it never falls.
   double first_minimum() const;
 };
@@ -111,6 +113,7 @@ class GraphEnergy {
   GraphConstraints::Course con_along_;
   Points reg_, reg_along_;  ///< residuals of eq. 7, two columns an edge; their change along d
   Terms terms_;
+  double evaluated_constraint_ = 0.0;  ///< when it was last evaluated
 };
 
 }  // namespace pliant::embedded

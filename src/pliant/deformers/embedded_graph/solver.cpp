@@ -18,15 +18,24 @@ constexpr double kDamping = 1e-6;
 /// What E_rot adds to the metric on the entries of R, times w_rot: between its curvature for a turn
 /// (none) and for a stretch (4).
 constexpr double kRotationMetric = 2.0;
-/// In exact mode the constraints are stiffer by this factor, so that the multipliers settle at
-/// once.
-constexpr double kExactStiffness = 100.0;
+/// In exact mode the constraints are stiffer by this factor. Multipliers alone would take as many
+/// rounds as the graph is stiffer than a handle's grip on the nodes that move few of its points a
+/// little. It costs no iterations: E_con is quadratic, and the metric knows it.
+constexpr double kExactStiffness = 1e7;
+/// What it adds to kDamping: rounding beside such entries must not make a pivot negative.
+constexpr double kExactDamping = 1e-3;
+/// Exact targets are met to the caller's tolerance, and to this, in parts of the graph's size.
+constexpr double kExactReach = 2e-6;
 /// A start with a node below this is mended: the barrier needs one inside.
 constexpr double kLeastDeterminant = 1e-3;
+/// Steps that promise to lower the energy by less than this part of it are rounding.
+constexpr double kRounding = 1e-13;
 /// Turns of the constraints below this (radians) need no prediction.
 constexpr double kSmallTurn = 0.2;
 /// So many points of a handle, evenly picked, tell its turn well enough for a prediction.
 constexpr std::size_t kEnoughForTurn = 250;
+
+double largest(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
 
 }  // namespace
 
@@ -52,7 +61,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   }
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
     // A pose from elsewhere may hold reflections.
-    const Eigen::Matrix3d r = affine_part(j);
+    const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, j);
     if (r.determinant() < kLeastDeterminant) {
       set_displacement_gradient(j, closest_rotation(r) - Eigen::Matrix3d::Identity());
     }
@@ -82,6 +91,8 @@ void GraphSolver::find_components(const DeformationGraph& graph, const Influence
   }
 }
 
+double GraphSolver::damping() const { return options_.exact ? kDamping + kExactDamping : kDamping; }
+
 Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
   std::vector<Index> order;
   for (Index node : graph.elimination_order) {
@@ -95,7 +106,7 @@ Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
   for (Index j = 0; j < metric.nodes; ++j) {
     Eigen::Map<Eigen::Matrix4d> block(metric.diagonal_block(j));
     block.diagonal().head<3>().array() += kRotationMetric * options_.weights.rotation;
-    block(3, 3) += kDamping;
+    block(3, 3) += damping();
   }
   if (Status s = metric_factor_.analyze(metric, order); !s.ok()) return s;
   if (Status s = metric_factor_.factorize(metric); !s.ok()) return s;
@@ -113,7 +124,7 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
   shift_.setZero();
   last_violation_ = 0.0;
   energy_.constraints().set_targets(displacement_);
-  energy_.evaluate(x_);
+  evaluate();
   if (energy_.free_nodes() == 0) return;
   const bool beyond_half_turn =
       std::any_of(turns.begin(), turns.end(), [](const Turn& t) { return t.rotation.norm() > std::numbers::pi; });
@@ -123,12 +134,12 @@ void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& tu
 }
 
 bool GraphSolver::keep_if_lower(double previous_total) {
-  if (energy_.total() < previous_total && std::isfinite(barrier())) {
+  if (total() < previous_total) {
     memory_.clear();
     return true;
   }
   x_ = previous_;
-  energy_.evaluate(x_);
+  evaluate();
   return false;
 }
 
@@ -152,7 +163,7 @@ void GraphSolver::predict_rigid() {
   }
   if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); })) return;
   previous_ = x_;
-  const double before = energy_.total();
+  const double before = total();
   for (Index c = 0; c < components_.count; ++c) {
     const std::vector<Index>& members = floating[c];
     if (members.empty()) continue;
@@ -165,7 +176,7 @@ void GraphSolver::predict_rigid() {
       for (int a = 0; a < 3; ++a) energy_.entry(x_, a, j)[3] = shift[a];
     }
   }
-  energy_.evaluate(x_);
+  evaluate();
   keep_if_lower(before);
 }
 
@@ -196,7 +207,7 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
 
   // What spreads displacements over the graph spreads turns as well.
   previous_ = x_;
-  const double before = energy_.total();
+  const double before = total();
   direction_.setZero();
   for (std::size_t t = 0; t < turns.size(); ++t)
     energy_.constraints().add_common(turns[t].constraints, rotations[t], direction_);
@@ -205,7 +216,7 @@ void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
   for (Index j = 0; j < energy_.free_nodes(); ++j) turn_node(j, rotation_of(energy_.translation(direction_, j)));
   direction_ = x_ - previous_;
   energy_.along(previous_, direction_);
-  energy_.advance(1.0, x_);
+  energy_.advance(1.0, x_);  // turns keep determinants, and with them the barrier
   update_gradient();
   follow_metric();
   if (as_told) {
@@ -220,9 +231,10 @@ void GraphSolver::follow_metric() {
   memory_.clear();
   direction_ = -gradient_;
   metric_factor_.solve(direction_.data(), 3);
-  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * slope());
-  x_ += alpha * direction_;
-  energy_.advance(alpha, x_);
+  const barrier::Fall fall = search_line();
+  x_ += fall.alpha * direction_;
+  energy_.advance(fall.alpha, x_);
+  barrier_ = fall.barrier;
 }
 
 Status GraphSolver::find_direction() {
@@ -233,16 +245,9 @@ Status GraphSolver::find_direction() {
   }
   energy_.gauss_newton_matrix(x_, constant_, newton_);
   for (Index j = 0; j < newton_.nodes; ++j) {
-    Eigen::Map<Eigen::Matrix<double, 12, 12>> block(newton_.diagonal_block(j));
-    block.diagonal().array() += kDamping;
-    const Eigen::Matrix3d r = affine_part(j);
-    const double curvature = barrier::curvature(r.determinant());
-    if (curvature == 0.0) continue;
-    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> g = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>::Zero();
-    g.leftCols<3>() = cofactors(r);
-    const Eigen::Map<const Eigen::Matrix<double, 12, 1>> gradient(g.data());
-    block += 0.5 * options_.weights.rotation * curvature * gradient * gradient.transpose();
+    Eigen::Map<Eigen::Matrix<double, 12, 12>>(newton_.diagonal_block(j)).diagonal().array() += damping();
   }
+  barrier::add_half_curvature(energy_, x_, newton_);
   ++factorizations_;
   if (Status s = newton_factor_.factorize(newton_); !s.ok()) return s;
   for (Index j = 0; j < newton_.nodes; ++j) {
@@ -259,72 +264,43 @@ Status GraphSolver::find_direction() {
   return {};
 }
 
-double GraphSolver::barrier() const {
-  double sum = 0.0;
-  for (Index j = 0; j < energy_.free_nodes(); ++j) sum += barrier::value(affine_part(j).determinant());
-  return options_.weights.rotation * sum;
+void GraphSolver::evaluate() {
+  energy_.evaluate(x_);
+  barrier_ = barrier::sum(energy_, x_);
 }
 
 void GraphSolver::update_gradient() {
   energy_.half_gradient(x_, gradient_);
-  for (Index j = 0; j < energy_.free_nodes(); ++j) {
-    const Eigen::Matrix3d r = affine_part(j);
-    const double slope = barrier::slope(r.determinant());
-    if (slope == 0.0) continue;
-    const Eigen::Matrix3d g = 0.5 * options_.weights.rotation * slope * cofactors(r);
-    for (int a = 0; a < 3; ++a) {
-      for (int c = 0; c < 3; ++c) energy_.entry(gradient_, a, j)[c] += g(a, c);
-    }
-  }
+  if (barrier_ > 0.0) barrier::add_half_gradient(energy_, x_, gradient_);
 }
 
-double GraphSolver::choose_step(const Quartic& course, double slope) {
-  // A node may lose four fifths of its determinant in a step; those near the barrier are listed.
-  double alpha = course.first_minimum();
-  double barrier_before = 0.0;
-  near_barrier_.clear();
-  for (Index j = 0; j < energy_.free_nodes(); ++j) {
-    const barrier::DeterminantAlong along(affine_part(j), energy_.displacement_gradient(direction_, j));
-    while (alpha > 0.0 && along.at(alpha) < 0.2 * std::min(1.0, along.at_start())) alpha *= 0.7;
-    if (along.at_start() >= barrier::kSafeDeterminant && along.at(alpha) >= barrier::kSafeDeterminant) continue;
-    near_barrier_.push_back(along);
-    barrier_before += options_.weights.rotation * barrier::value(along.at_start());
-  }
-  // Away from the barrier the first minimum of the quartic is the exact line search. Near it the
-  // sum of both must fall, and the energy must not rise.
-  if (near_barrier_.empty()) return alpha;
-  for (int halvings = 0; halvings < 40; ++halvings, alpha *= 0.5) {
-    double barrier_after = 0.0;
-    for (const auto& along : near_barrier_) {
-      barrier_after += options_.weights.rotation * barrier::value(along.at(alpha));
-    }
-    const double energy_after = course.value(alpha);
-    if (energy_after < course.c[0] &&
-        energy_after + barrier_after < course.c[0] + barrier_before + 1e-4 * alpha * slope) {
-      return alpha;
-    }
-  }
-  return 0.0;
+barrier::Fall GraphSolver::search_line() {
+  return barrier::first_minimum(energy_, energy_.along(x_, direction_), 2.0 * slope(), x_, direction_, along_);
 }
 
 Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   if (energy_.free_nodes() == 0) return Outcome{false, true};
   const Terms terms_before = energy_.terms();
-  const double before = energy_.total();
+  const double before = total(), barrier_before = barrier_;
   if (Status s = find_direction(); !s.ok()) return s;
   if (!(slope() < 0.0) && !memory_.empty()) {
     memory_.clear();
     if (Status s = find_direction(); !s.ok()) return s;
   }
-  const double alpha = choose_step(energy_.along(x_, direction_), 2.0 * slope());
+  const barrier::Fall fall = search_line();
   previous_ = x_;
-  step_ = alpha * direction_;
+  step_ = fall.alpha * direction_;
   x_ += step_;
-  energy_.advance(alpha, x_);
-  if (!(alpha > 0.0) || !(energy_.total() < before)) {
+  energy_.advance(fall.alpha, x_);
+  barrier_ = fall.barrier;
+  if (!(fall.alpha > 0.0) || !(total() < before)) {
     x_ = previous_;
-    energy_.retreat(alpha, terms_before);
-    if (memory_.empty()) return Outcome{false, !tighten()};
+    energy_.retreat(fall.alpha, terms_before);
+    barrier_ = barrier_before;
+    if (memory_.empty()) {
+      const bool rounding = -slope() < kRounding * (1.0 + total());
+      return Outcome{false, (rounding || gradient_gone(tolerance)) && !tighten(tolerance)};
+    }
     memory_.clear();  // once more along the plain direction before giving up
     return step(tolerance);
   }
@@ -333,32 +309,35 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   change_ = gradient_ - change_;
   memory_.remember(step_, change_);
 
-  // Eq. 12: change of the energy, gradient (twice our half) and step are all small.
-  const double f = energy_.total();
-  const auto largest = [](const Vector& v) { return v.lpNorm<Eigen::Infinity>(); };
-  const bool small = before - f < tolerance * (1.0 + f) &&
-                     2.0 * largest(gradient_) < std::cbrt(tolerance) * (1.0 + f) &&
+  // Eq. 12: change of the energy, gradient and step are all small.
+  const double f = total();
+  const bool small = before - f < tolerance * (1.0 + f) && gradient_gone(tolerance) &&
                      largest(step_) < std::sqrt(tolerance) * (1.0 + largest(step_));
-  return Outcome{true, small && !tighten()};
+  return Outcome{true, small && !tighten(tolerance)};
 }
 
-bool GraphSolver::tighten() {
+bool GraphSolver::gradient_gone(double tolerance) const {
+  return 2.0 * largest(gradient_) < std::cbrt(tolerance) * (1.0 + total());
+}
+
+bool GraphSolver::tighten(double tolerance) {
   // Method of multipliers: what is missing from a target is added to it. True while that helps.
   if (!options_.exact || displacement_.cols() == 0) return false;
   const double violation = (energy_.constraints().residuals(x_) + shift_).colwise().norm().maxCoeff();
-  const bool met = violation <= 1e-10 * extent_;
+  const bool met = violation <= std::min(tolerance, kExactReach) * extent_;
   const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
   if (met || stuck) return false;
   last_violation_ = violation;
   shift_ = -energy_.constraints().residuals(x_);
   energy_.constraints().set_targets(displacement_ + shift_);
-  energy_.evaluate(x_);
+  evaluate();
   update_gradient();
   return true;
 }
 
 Terms GraphSolver::terms() const {
   Terms terms = energy_.terms();
+  terms.barrier = barrier_;
   if (options_.exact) terms.constraint = (energy_.constraints().residuals(x_) + shift_).squaredNorm();
   return terms;
 }

@@ -3,7 +3,8 @@
 // The reference is the paper's Gauss-Newton (eq. 10-11), damped. The fast way uses that E_reg and
 // E_con are constant quadratics, alike for x, y and z: their matrix of 4 x 4 blocks is factorised
 // once a grab and serves as the metric of a quasi-Newton method on the same, exact energy. Both
-// take the exact minimum along their direction, and both keep det R > 0 at every node.
+// minimise it together with the barrier that keeps det R > 0 at every node, and take the minimum
+// along their direction.
 #pragma once
 
 #include <vector>
@@ -63,6 +64,7 @@ class GraphSolver {
 
  private:
   void find_components(const DeformationGraph& graph, const Influences& influences);
+  double damping() const;
   Status factorize_metric(const DeformationGraph& graph);
   void predict_rigid();
   void predict_turns(const std::vector<Turn>& turns, bool as_told);
@@ -73,16 +75,16 @@ class GraphSolver {
   /// After x_ and the energy have moved on from previous_: goes back unless the energy fell.
   bool keep_if_lower(double previous_total);
   Status find_direction();
-  Eigen::Matrix3d affine_part(Index free_node) const {  ///< R_j
-    return Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, free_node);
-  }
-  double barrier() const;
-  /// Half the energy's slope along direction_.
+  /// Eq. 9 and the barrier: what is minimised.
+  double total() const { return energy_.total() + options_.weights.rotation * barrier_; }
+  /// Half its slope along direction_.
   double slope() const { return dense::dot(gradient_.data(), direction_.data(), x_.size()); }
+  /// The second test of eq. 12, the barrier's part included.
+  bool gradient_gone(double tolerance) const;
+  void evaluate();
   void update_gradient();
-  /// Step along direction_, given the energy's course and the slope with the barrier's part.
-  double choose_step(const Quartic& course, double slope);
-  bool tighten();
+  barrier::Fall search_line();
+  bool tighten(double tolerance);
   /// What takes constrained points from where the energy was last evaluated to their targets; of
   /// more than twice `most` only some are asked.
   RigidMotion motion_of(const std::vector<Index>& constraints, std::size_t most) const;
@@ -103,7 +105,8 @@ class GraphSolver {
   BlockMatrix constant_, newton_;
   SparseCholesky metric_factor_, newton_factor_;
   Lbfgs memory_;
-  std::vector<barrier::DeterminantAlong> near_barrier_;  ///< determinants along the step
+  double barrier_ = 0.0;                          ///< its sum at x_
+  std::vector<barrier::DeterminantAlong> along_;  ///< determinants along the step
   int factorizations_ = 0;
   int analyses_ = 0;
 };
