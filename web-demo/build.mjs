@@ -12,7 +12,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 
 /** Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the module alone takes 270 kB of what is here, inlined. */
-const budget = { raw: 1.2e6, gzip: 485e3 };
+const budget = { raw: 1.4e6, gzip: 600e3 };
 
 /** The module "#shapes": what build-shapes.mjs made. */
 const shapesPlugin = {
@@ -28,8 +28,8 @@ const packagePlugin = (dist) => ({
   resolveId: (id) => (id === "pliant/worker" ? join(dist, "worker.js") : undefined),
   transform(code, id) {
     if (id !== join(dist, "worker.js")) return undefined;
-    const beside = /new URL\((["'`])\.\/(?:pliant\.wasm|worker-host\.js)\1,\s*import\.meta\.url\)/g;
-    if (code.match(beside)?.length !== 2) throw new Error(`${id}: expected it to name pliant.wasm and worker-host.js once each`);
+    const beside = /new URL\((["'`])\.\/(?:pliant\.wasm|pliant-io\.wasm|worker-host\.js)\1,\s*import\.meta\.url\)/g;
+    if (code.match(beside)?.length !== 3) throw new Error(`${id}: expected it to name pliant.wasm, pliant-io.wasm and worker-host.js once each`);
     return code.replace(beside, 'new URL("about:blank")');
   },
 });

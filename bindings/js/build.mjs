@@ -16,6 +16,7 @@ const source = join(root, "bindings/js");
 /** Entries of the package: the file in dist/ and where it begins. */
 const entries = {
   pliant: "index.ts",
+  io: "io.ts",
   worker: "worker.ts",
   "worker-host": "worker/host.ts",
   three: "three.ts",
@@ -26,14 +27,18 @@ const budget = [
   { file: "pliant.wasm", raw: 610e3, gzip: 253e3 },
   { file: "pliant.js", gzip: 34e3 },
   { file: "inline.js", gzip: 292e3 },
+  { file: "pliant-io.wasm", raw: 146e3, gzip: 65e3 },
+  { file: "io.js", gzip: 9e3 },
 ];
 
 /** Writes the package. `wasm`: the folder of the linked modules; `out`: where the package goes. */
 export async function buildPackage({ wasm = join(root, "build/wasm/bindings/wasm"), out = join(root, "dist") } = {}) {
   await clear(out);
   const { version } = JSON.parse(await readFile(join(root, "package.json"), "utf8"));
+  const packed = async (name) => exported(gzipSync(await readFile(join(wasm, name)), { level: 9 }).toString("base64"));
   const modules = {
-    "#wasm/inline": async () => exported(gzipSync(await readFile(join(wasm, "pliant.wasm")), { level: 9 }).toString("base64")),
+    "#wasm/inline": () => packed("pliant.wasm"),
+    "#wasm/io-inline": () => packed("pliant-io.wasm"),
     "#worker-script": async () => exported(await script("worker/host.ts", wasm)),
     "#version": () => exported(version),
     "#draco": dracoModule,

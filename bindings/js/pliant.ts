@@ -2,7 +2,8 @@
 
 import { fields, Place } from "./boundary/check.js";
 import type { Core } from "./boundary/core.js";
-import { Deformer, readCallback, readSignal } from "./deform/deformer.js";
+import { readCallback, readSignal } from "./boundary/task.js";
+import { Deformer } from "./deform/deformer.js";
 import type { DeformerOptions, MethodName } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
 import { Edit } from "./edit/living.js";

@@ -16,6 +16,12 @@ declare module "#wasm/inline" {
   export default text;
 }
 
+/** pliant-io.wasm, likewise. */
+declare module "#wasm/io-inline" {
+  const text: string;
+  export default text;
+}
+
 /** The worker's script, with the WASM inside. */
 declare module "#worker-script" {
   const script: string;

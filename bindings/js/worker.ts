@@ -10,6 +10,9 @@ import type { Reference } from "./worker/protocol.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 
 export { WorkerDeformer, WorkerEdit, WorkerHandle, WorkerPliant, WorkerShape, WorkerSketch } from "./worker/objects.js";
+export type { FileSource } from "./io/files.js";
+export type { FileFormat } from "./io/format.js";
+export type { Mesh, ReadOptions, ReadProgress, ShapeFile, WritableShape } from "./io/shape_file.js";
 export type * from "./public.js";
 export { PliantError };
 
@@ -19,6 +22,8 @@ export interface WorkerInitOptions extends InitOptions {
    * for a page opened from a file. A strict content-security policy must then allow `worker-src blob:`.
    */
   inline?: boolean;
+  /** Where pliant-io.wasm comes from, which `read` and `write` load. Left out: from beside this script, or from inside it. */
+  io?: InitOptions;
 }
 
 let current: Promise<WorkerPliant> | undefined;
@@ -26,22 +31,22 @@ let current: Promise<WorkerPliant> | undefined;
 /** Starts the worker; every call gives the same one until it is disposed. Errors: invalid-option, load-failed. */
 export async function init(options?: WorkerInitOptions): Promise<WorkerPliant> {
   const place = new Place("invalid-option", "options");
-  const { inline, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline"], "option of init");
-  const source = readInitOptions(rest);
+  const { inline, io, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline", "io"], "option of init");
+  const [source, ioSource] = [readInitOptions(rest), readInitOptions(io)];
   const inside = inline === undefined ? globalThis.location?.protocol === "file:" : flag(place.at("inline"), inline);
-  current ??= start(inside, source).catch((error) => {
+  current ??= start(inside, source, ioSource).catch((error) => {
     current = undefined;
     throw error;
   });
   return current;
 }
 
-async function start(inline: boolean, source: InitOptions): Promise<WorkerPliant> {
-  const wasm = await travelling(source, inline);
+async function start(inline: boolean, source: InitOptions, io: InitOptions): Promise<WorkerPliant> {
+  const wasm = await travelling(source, inline, beside.pliant);
   const line = new Line(await launched(inline), () => (current = undefined));
   try {
     const reference = await line.call<Reference>({ target: 0, method: "init", args: [wasm] });
-    return new WorkerPliant(line, reference);
+    return new WorkerPliant(line, reference, () => travelling(io, inline, beside.io));
   } catch (error) {
     line.close(new PliantError("disposed", "the worker did not start"));
     throw error instanceof PliantError && error.code === "crashed" ? notStarted(error) : error;
@@ -62,13 +67,23 @@ function notStarted(error: Error): PliantError {
 }
 
 /** The source of the WASM in a form that a worker, which may have no address of its own, can use. */
-async function travelling(source: InitOptions, inline: boolean): Promise<InitOptions> {
+async function travelling(source: InitOptions, inline: boolean, { url, unpack }: (typeof beside)["io"]): Promise<InitOptions> {
   if (source.wasmUrl) return { wasmUrl: absolute(source.wasmUrl).href };
   if (source.wasmBinary || source.wasmModule) return source;
-  if (!inline) return { wasmUrl: new URL("./pliant.wasm", import.meta.url).href };
-  const { unpack } = await import("./boundary/unpack.js");
-  return { wasmBinary: await unpack() };
+  return inline ? { wasmBinary: await unpack() } : { wasmUrl: url().href };
 }
+
+/** The modules beside this script, and inside it. */
+const beside = {
+  pliant: {
+    url: () => new URL("./pliant.wasm", import.meta.url),
+    unpack: async () => (await import("./boundary/unpack.js")).unpack(),
+  },
+  io: {
+    url: () => new URL("./pliant-io.wasm", import.meta.url),
+    unpack: async () => (await import("./io/unpack.js")).unpackIo(),
+  },
+};
 
 async function launch(inline: boolean): Promise<WorkerPort> {
   const threads = nodeModule("node:worker_threads");

@@ -19,6 +19,11 @@ struct BytesValue {
   val bytes = val::undefined();
 };
 
+struct ShareValue {
+  StatusValue status;
+  double share = 0.0;
+};
+
 struct PointsValue {
   StatusValue status;
   val points = val::undefined();
@@ -27,9 +32,13 @@ struct PointsValue {
 /// Keeps what a call returned a view of.
 class BoundDocument {
  public:
-  StatusValue read(const std::string& format, Scratch& scratch) {
+  StatusValue begin(const std::string& format, Scratch& scratch) {
     const Result<io::FileFormat> known = io::format_from_name(format);
-    return to_value(known.ok() ? document_.read(*known, scratch.take_bytes()) : known.status());
+    return to_value(known.ok() ? document_.begin(*known, scratch.take_bytes()) : known.status());
+  }
+  ShareValue advance() {
+    const Result<double> share = document_.advance();
+    return {to_value(share.status()), share.ok() ? *share : 0.0};
   }
   StatusValue assign(const Scratch& scratch) {
     return to_value(document_.assign(scratch.doubles(), scratch.integers()));
@@ -37,6 +46,7 @@ class BoundDocument {
   StatusValue assign_texcoords(const Scratch& scratch) {
     return to_value(document_.assign_texcoords(scratch.doubles()));
   }
+  StatusValue assign_colors(const Scratch& scratch) { return to_value(document_.assign_colors(scratch.bytes())); }
   BytesValue write(const std::string& format, const Scratch& scratch) {
     output_ = {};
     const Result<io::FileFormat> known = io::format_from_name(format);
@@ -49,6 +59,7 @@ class BoundDocument {
   val positions() const { return view_of(document_.mesh().positions); }
   val face_vertices() const { return view_of(document_.mesh().face_vertices); }
   val face_offsets() const { return view_of(document_.mesh().face_offsets); }
+  val colors() const { return view_of(document_.mesh().colors); }
   val triangles() const { return view_of(document_.triangles()); }
   val corner_texcoords() {
     const io::PolygonMesh& mesh = document_.mesh();
@@ -96,20 +107,26 @@ EMSCRIPTEN_BINDINGS(pliant_io) {
   emscripten::value_object<BytesValue>("RawBytes")
       .field("status", &BytesValue::status)
       .field("bytes", &BytesValue::bytes);
+  emscripten::value_object<ShareValue>("RawShare")
+      .field("status", &ShareValue::status)
+      .field("share", &ShareValue::share);
   emscripten::value_object<PointsValue>("RawPoints")
       .field("status", &PointsValue::status)
       .field("points", &PointsValue::points);
 
   emscripten::class_<BoundDocument>("Document")
       .constructor<>()
-      .function("read", &BoundDocument::read)
+      .function("begin", &BoundDocument::begin)
+      .function("advance", &BoundDocument::advance)
       .function("positions", &BoundDocument::positions)
       .function("faceVertices", &BoundDocument::face_vertices)
       .function("faceOffsets", &BoundDocument::face_offsets)
       .function("triangles", &BoundDocument::triangles)
       .function("cornerTexcoords", &BoundDocument::corner_texcoords)
+      .function("colors", &BoundDocument::colors)
       .function("assign", &BoundDocument::assign)
       .function("assignTexcoords", &BoundDocument::assign_texcoords)
+      .function("assignColors", &BoundDocument::assign_colors)
       .function("write", &BoundDocument::write);
 
   emscripten::class_<BoundRewriter>("Rewriter")

@@ -237,5 +237,67 @@ TEST_CASE("more vertices than a shape may have are refused while reading") {
   CHECK(status.code() == ErrorCode::too_large);
 }
 
+TEST_CASE("colours: shares, bytes and other whole numbers; vertices without any are white") {
+  using Colors = std::vector<std::uint8_t>;
+  const auto colors_of = [](FileFormat format, const char* file) { return read(format, file).mesh().colors; };
+  CHECK(colors_of(FileFormat::obj, "v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0\n") ==
+        Colors{255, 255, 255, 255, 128, 0, 255, 255, 255});
+  CHECK(colors_of(FileFormat::obj, "v 0 0 0 51 102 255 # so\nv 1 0 0 2.0\n") == Colors{51, 102, 255, 255, 255, 255});
+  CHECK(colors_of(FileFormat::obj, "v 0 0 0 1\nv 1 0 0 a b c\n").empty());
+  CHECK(colors_of(FileFormat::off, "COFF 2 0 0\n0 0 0 1 0 0 0.5\n1 0 0 0 0 1 1\n") == Colors{255, 0, 0, 0, 0, 255});
+  CHECK(colors_of(FileFormat::off, "STCOFF 1 0 0\n0 0 0 10 20 30 255 0.5 0.75\n") == Colors{10, 20, 30});
+  CHECK(colors_of(FileFormat::off, "OFF 1 0 0\n0 0 0 10 20 30\n").empty());
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  CHECK(colors_of(FileFormat::ply, (ply + "property uchar blue\nproperty ushort green\nproperty float red\nend_header\n"
+                                          "0 0 0 255 13107 0.2\n")
+                                       .c_str()) == Colors{51, 51, 255});
+  CHECK(colors_of(FileFormat::ply, (ply + "property uchar red\nend_header\n0 0 0 255\n").c_str()).empty());
+  CHECK(colors_of(FileFormat::ply, (ply + "property float red\nproperty float green\nproperty float blue\nend_header\n"
+                                          "0 0 0 nan -1 7\n")
+                                       .c_str()) == Colors{0, 0, 255});
+}
+
+TEST_CASE("colours go from format to format, every byte as it was") {
+  Document document;
+  std::vector<std::uint8_t> colors;
+  for (int byte = 0; byte < 256; ++byte) colors.insert(colors.end(), {std::uint8_t(byte), std::uint8_t(255 - byte), 7});
+  const Numbers positions = test::awkward_numbers(3 * 256);
+  REQUIRE(document.assign(positions, {}).ok());
+  REQUIRE(document.assign_colors(colors).ok());
+  for (const FileFormat format : {FileFormat::obj, FileFormat::ply, FileFormat::off}) {
+    CHECK(read(format, write(document, format, positions)).mesh().colors == colors);
+  }
+  CHECK(document.assign_colors(std::vector<std::uint8_t>(5)).message() ==
+        "colors has 5 numbers; expected 3 for each of 256 vertices");
+}
+
+TEST_CASE("in pieces: the share grows to 1, the document before stays until then, the result is that of one read") {
+  std::string file;
+  for (int v = 0; v < 150'000; ++v) file += "v 1.5 " + std::to_string(v) + " 3\n";
+  file += "f 1 2 3 150000\n";
+  Document document = awkward_document();
+  REQUIRE(document.begin(FileFormat::obj, test::bytes_of(file)).ok());
+  double before = 0.0;
+  int pieces = 0;
+  for (double share = 0.0; share < 1.0; ++pieces) {
+    CHECK(document.mesh().vertex_count() == 6);
+    const Result<double> advanced = document.advance();
+    REQUIRE(advanced.ok());
+    share = *advanced;
+    CHECK(share > before);
+    before = share;
+  }
+  CHECK(pieces > 3);
+  CHECK(document.mesh().positions == read(FileFormat::obj, file).mesh().positions);
+  CHECK(document.advance().status().code() == ErrorCode::invalid_option);
+
+  REQUIRE(document.begin(FileFormat::obj, test::bytes_of(file + "f 1 2 150001\n")).ok());
+  Status status;
+  while (status.ok()) status = document.advance().status();
+  CHECK(status.message() == "line 150002: face refers to vertex 150001; the file has 150000 vertices");
+  CHECK(document.mesh().vertex_count() == 150'000);
+}
+
 }  // namespace
 }  // namespace pliant::io

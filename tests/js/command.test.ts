@@ -67,7 +67,7 @@ describe("pliant inspect", () => {
   it("says it in JSON", () => {
     expect(JSON.parse(folder.run("inspect", "bar.obj", "--json").out)).toEqual({
       format: "obj", vertices: 100, triangles: 192, components: 1, boundaryEdges: 8, nonManifoldEdges: 0, degenerateTriangles: 0,
-      weldedVertices: 0, faces: 96, textureCoordinates: true, diagonal: Math.hypot(8, 1, 1), min: [0, 0, 0], max: [8, 1, 1],
+      weldedVertices: 0, faces: 96, textureCoordinates: true, colors: false, diagonal: Math.hypot(8, 1, 1), min: [0, 0, 0], max: [8, 1, 1],
     });
   });
 });

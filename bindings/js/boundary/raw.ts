@@ -196,8 +196,10 @@ export interface RawModule {
 
 /** A file read into memory (bind_io.cpp). */
 export interface RawDocument extends RawObject {
-  /** format: "obj" | "ply" | "off" | "stl" | "xyz"; bytes: the file. */
-  read(format: string, scratch: RawScratch): RawStatus;
+  /** format: "obj" | "ply" | "off" | "stl" | "xyz"; bytes: the file, which the scratch gives away. To be read by `advance`. */
+  begin(format: string, scratch: RawScratch): RawStatus;
+  /** Reads a piece of it; `share` 1: all is read. */
+  advance(): { status: RawStatus; share: number };
   positions(): Float64Array; // 3 n
   /** Polygons as a flat list of vertex ids, and where each begins: faceOffsets has faces + 1 entries. */
   faceVertices(): Uint32Array;
@@ -205,10 +207,14 @@ export interface RawDocument extends RawObject {
   triangles(): Uint32Array; // the polygons as triangles, 3 m
   /** Texture coordinates, 2 a corner in faceVertices order; empty where the file has none. */
   cornerTexcoords(): Float64Array;
+  /** sRGB, 3 a vertex; empty where the file has none. */
+  colors(): Uint8Array;
   /** Sets positions (doubles), polygons (integers: count, ids..., count, ids...), for writing what another reader read. */
   assign(scratch: RawScratch): RawStatus;
   /** Sets texture coordinates, 2 a corner (doubles). */
   assignTexcoords(scratch: RawScratch): RawStatus;
+  /** Sets colours, 3 a vertex (bytes). */
+  assignColors(scratch: RawScratch): RawStatus;
   /** doubles: 3 n new positions. On success `bytes` is a view of the file. */
   write(format: string, scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };
 }

@@ -1,6 +1,6 @@
 // pliant deform: an edit script over a shape, and the files that come of it.
 
-import { open, readFile } from "node:fs/promises";
+import { type FileHandle, open, readFile } from "node:fs/promises";
 import type { Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import { readMethod } from "../methods/index.js";
@@ -11,11 +11,13 @@ import { type FinishedEdit, reportOf, runFrames } from "../edit/frames.js";
 import type { EditProgress, EditReport } from "../edit/types.js";
 import { extentOf, type Shape } from "../shape/shape.js";
 import { Failure, onFile } from "./failure.js";
-import { ShapeRewriter } from "../io/files.js";
+import { formats, textFormats } from "../io/format.js";
+import type { ShapeFile } from "../io/shape_file.js";
+import { rewriteStream } from "../io/text.js";
 import { parseJson } from "./json.js";
 import type { Outputs } from "./outputs.js";
 import { Progress } from "./progress.js";
-import { formatOf, readShape, type ShapeFile, streamable } from "./shapes.js";
+import { animated, files as shapeFiles, formatOf, readShape, written } from "./shapes.js";
 import type { Invocation } from "./usage.js";
 
 const pieceSize = 4 << 20;
@@ -24,9 +26,9 @@ const pieceSize = 4 << 20;
 export async function deform(pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal): Promise<void> {
   const { operands: [shapePath], files, flags } = invocation;
   checkCarry(files.carry, files["carry-out"]);
-  const format = formatOf(files.out!);
+  const format = formatOf(files.out!, formats);
   const file = await readShape(shapePath);
-  const shape = await onFile(shapePath, () => pliant.shape({ positions: file.mesh.positions, triangles: file.mesh.triangles }));
+  const shape = await onFile(shapePath, () => pliant.shape({ positions: file.positions, triangles: file.triangles }));
   const plan = await readPlan(files.script!, shape);
   if (files.carry) checkCarries(files.script!, plan);
   const frames = new Frames(file, files.out!, format, plan, outputs);
@@ -52,8 +54,8 @@ export async function deform(pliant: Pliant, core: Core, invocation: Invocation,
 function checkCarry(from: string | undefined, to: string | undefined): void {
   if ((from === undefined) !== (to === undefined)) throw new Failure("--carry and --carry-out go together; see pliant --help");
   if (from === undefined || to === undefined) return;
-  const format = formatOf(from, streamable);
-  if (formatOf(to, streamable) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+  const format = formatOf(from, textFormats);
+  if (formatOf(to, textFormats) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
 }
 
 /** What moves a surface only has no other points to carry. */
@@ -105,7 +107,7 @@ class Frames {
 
   async add({ positions, time, refinement }: FinishedEdit): Promise<void> {
     if (this.#animated) this.#kept.push({ positions, time });
-    else await this.outputs.write(this.#path(), await this.#encoded(() => this.file.write(this.format, positions, refinement)));
+    else await this.outputs.write(this.#path(), await this.#encoded(() => written(this.file, `shape.${this.format}`, positions, refinement)));
     ++this.#count;
   }
 
@@ -113,7 +115,7 @@ class Frames {
     if (!this.#animated) return;
     const times = this.#kept.map(({ time }) => time - this.#kept[0].time);
     const frames = this.#kept.map(({ positions }) => positions);
-    await this.outputs.write(this.out, await this.#encoded(() => this.file.animate(frames, times)));
+    await this.outputs.write(this.out, await this.#encoded(() => animated(this.file, frames, times)));
   }
 
   /** Printed as in C: %d, %4d, %04d. */
@@ -134,22 +136,25 @@ async function carry(edit: FinishedEdit, from: string, to: string, outputs: Outp
   try {
     const target = await outputs.open(to);
     try {
-      const rewriter = await ShapeRewriter.open(formatOf(from));
       const total = (await source.stat()).size;
-      const buffer = new Uint8Array(pieceSize);
-      for (let done = 0, last = false; !last; ) {
-        signal.throwIfAborted();
-        const { bytesRead } = await onFile(from, () => source.read(buffer));
-        last = bytesRead === 0;
-        done += bytesRead;
-        const written = await onFile(from, () => rewriter.push(buffer.subarray(0, bytesRead), last, edit.carry));
-        await onFile(to, () => target.writeFile(written));
-        progress.show(done, total, `carrying ${from}`);
-      }
+      const show = (done: number) => progress.show(done, total, `carrying ${from}`);
+      const emit = (piece: Uint8Array) => onFile(to, () => target.writeFile(piece));
+      await onFile(from, () => rewriteStream(shapeFiles.io, formatOf(from, textFormats), piecesOf(source, signal, show), edit.carry, emit));
     } finally {
       await target.close();
     }
   } finally {
     await source.close();
+  }
+}
+
+async function* piecesOf(source: FileHandle, signal: AbortSignal, show: (done: number) => void): AsyncGenerator<Uint8Array> {
+  const buffer = new Uint8Array(pieceSize);
+  for (let done = 0; ; show(done)) {
+    signal.throwIfAborted();
+    const { bytesRead } = await source.read(buffer);
+    if (bytesRead === 0) return;
+    done += bytesRead;
+    yield buffer.subarray(0, bytesRead);
   }
 }

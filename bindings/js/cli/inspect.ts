@@ -8,12 +8,12 @@ import type { Invocation } from "./usage.js";
 
 export async function inspect(pliant: Pliant, { operands: [path], flags }: Invocation): Promise<string> {
   const file = await readShape(path);
-  const { positions, triangles, faceOffsets, texcoords } = file.mesh;
+  const { positions, triangles, faceOffsets, texcoords, colors } = file;
   const shape = await onFile(path, () => pliant.shape({ positions, triangles }));
   const bounds = boundsOf(positions);
   const found = {
     format: file.format, ...shape.report, faces: faceOffsets.length - 1,
-    textureCoordinates: texcoords.length > 0, diagonal: shape.diagonal, ...bounds,
+    textureCoordinates: texcoords.length > 0, colors: colors.length > 0, diagonal: shape.diagonal, ...bounds,
   };
   return flags.json ? JSON.stringify(found, null, 2) : table(found);
 }
@@ -30,11 +30,11 @@ function boundsOf(positions: Float64Array): { min: number[]; max: number[] } {
 
 export async function compare(pliant: Pliant, { operands: [restPath, deformedPath], flags }: Invocation): Promise<string> {
   const [rest, deformed] = [await readShape(restPath), await readShape(deformedPath)];
-  const [from, to] = [rest.mesh.positions.length / 3, deformed.mesh.positions.length / 3];
+  const [from, to] = [rest.positions.length / 3, deformed.positions.length / 3];
   if (from !== to) throw new Failure(`${deformedPath}: has ${to} vertices; expected ${from}, as ${restPath}`);
-  const { positions, triangles } = rest.mesh;
+  const { positions, triangles } = rest;
   const shape = await onFile(restPath, () => pliant.shape({ positions, triangles }));
-  const quality = await onFile(deformedPath, () => pliant.measure(shape, deformed.mesh.positions));
+  const quality = await onFile(deformedPath, () => pliant.measure(shape, deformed.positions));
   return flags.json ? JSON.stringify(quality, null, 2) : table(flat(quality));
 }
 

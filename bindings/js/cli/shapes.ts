@@ -2,78 +2,44 @@
 
 import { readFile } from "node:fs/promises";
 import { extname } from "node:path";
-import { Failure, onFile } from "./failure.js";
-import { Glb, glbOf } from "../io/glb.js";
+import { PliantError } from "../boundary/errors.js";
+import { fetchBinary } from "../boundary/wasm.js";
 import type { Refinement } from "../deform/sketch.js";
-import { type Mesh, ShapeDocument } from "../io/files.js";
-import { refinedMesh } from "../io/refined.js";
+import { Files } from "../io/files.js";
+import { type FileFormat, formats } from "../io/format.js";
+import { IoModule } from "../io/module.js";
+import { refined } from "../io/refined.js";
+import type { ShapeFile } from "../io/shape_file.js";
+import { Failure, onFile } from "./failure.js";
 
-/** Formats that pliant-io knows, and that can be passed through in pieces. */
-export const streamable = ["obj", "ply", "off", "stl", "xyz"];
-const formats = [...streamable, "glb"];
+export const files = new Files(new IoModule({}, () => fetchBinary(new URL("./pliant-io.wasm", import.meta.url))));
 
 /** The format of a file by its extension. */
-export function formatOf(path: string, among: readonly string[] = formats): string {
+export function formatOf<Format extends FileFormat>(path: string, among: readonly Format[]): Format {
   const format = extname(path).slice(1).toLowerCase();
-  if (among.includes(format)) return format;
+  const known = among.find((name) => name === format);
+  if (known) return known;
   throw new Failure(`${path}: the extension is ${format ? `.${format}` : "missing"}; expected ${among.map((name) => `.${name}`).join(" ")}`);
 }
 
-/** A shape that was read, to be written with its vertices elsewhere. */
-export interface ShapeFile {
-  path: string;
-  format: string;
-  mesh: Mesh;
-  /** The same file with other positions, in any format; with a refinement, what a mesh has: positions, faces and texture coordinates. */
-  write(format: string, positions: Float64Array, refinement?: Refinement): Promise<Uint8Array>;
-  /** One .glb that shows positions one after the other, at times in seconds. */
-  animate(frames: Float64Array[], times: number[]): Promise<Uint8Array>;
-}
-
 /** Errors: a Failure that names the file. */
-export function readShape(path: string): Promise<ShapeFile> {
-  const format = formatOf(path);
-  return onFile(path, async () => {
-    const bytes = await readFile(path);
-    return format === "glb" ? fromGlb(path, bytes) : fromDocument(path, format, bytes);
-  });
+export async function readShape(path: string): Promise<ShapeFile> {
+  formatOf(path, formats);
+  const bytes = await onFile(path, () => readFile(path));
+  try {
+    return await files.read(bytes, path);
+  } catch (error) {
+    throw error instanceof PliantError ? new Failure(error.message, { cause: error }) : error; // it begins with the path
+  }
 }
 
-async function fromDocument(path: string, format: string, bytes: Uint8Array): Promise<ShapeFile> {
-  const document = await ShapeDocument.read(format, bytes);
-  const { mesh } = document;
-  return {
-    path, format, mesh,
-    write: async (to, positions, refinement) => {
-      if (refinement) return writeMesh(to, refinedMesh(mesh, refinement), positions);
-      return to === "glb" ? writeMesh(to, mesh, positions) : document.write(to, positions);
-    },
-    animate: (frames, times) => {
-      const { glb, expand } = glbOf(mesh);
-      glb.animate(frames.map(expand), times);
-      return glb.write(expand(mesh.positions));
-    },
-  };
+/** The file with its vertices elsewhere, as the name of another says; with a refinement, what a mesh has: positions, faces, texture coordinates and colours. */
+export function written(file: ShapeFile, path: string, positions: Float64Array, refinement?: Refinement): Promise<Uint8Array> {
+  return files.write({ ...(refinement ? refined(file, refinement) : file), positions }, path);
 }
 
-async function writeMesh(format: string, mesh: Mesh, positions: Float64Array): Promise<Uint8Array> {
-  if (format !== "glb") return (await ShapeDocument.from(mesh)).write(format, positions);
-  const { glb, expand } = glbOf(mesh);
-  return glb.write(expand(positions));
-}
-
-async function fromGlb(path: string, bytes: Uint8Array): Promise<ShapeFile> {
-  const { mesh } = await Glb.read(bytes);
-  return {
-    path, format: "glb", mesh,
-    write: async (to, positions, refinement) => {
-      if (refinement) return writeMesh(to, refinedMesh(mesh, refinement), positions);
-      return to === "glb" ? (await Glb.read(bytes)).write(positions) : writeMesh(to, mesh, positions);
-    },
-    animate: async (frames, times) => {
-      const glb = await Glb.read(bytes);
-      glb.animate(frames, times);
-      return glb.write(mesh.positions);
-    },
-  };
+/** One .glb that shows positions one after the other, at times in seconds. */
+export async function animated({ source, format, ...file }: ShapeFile, frames: Float64Array[], times: number[]): Promise<Uint8Array> {
+  const { animateGlb } = await import("../io/glb.js");
+  return animateGlb(file, format === "glb" ? new Uint8Array(await source.arrayBuffer()) : undefined, frames, times);
 }

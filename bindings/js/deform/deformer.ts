@@ -5,6 +5,7 @@ import { accept, build, type Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import { Deformation } from "./deformation.js";
+import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import { Handle } from "./handle.js";
 import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "../methods/index.js";
 import type { RawDeformer } from "../boundary/raw.js";
@@ -216,33 +217,4 @@ function readSolveOptions(value: SolveOptions) {
     signal: readSignal(place.at("signal"), signal),
     onProgress: readCallback<SolveOptions["onProgress"]>(place.at("onProgress"), onProgress),
   };
-}
-
-export function readSignal(place: Place, value: unknown): AbortSignal | undefined {
-  const fits = value === undefined || (typeof value === "object" && value !== null && "aborted" in value);
-  return fits ? (value as AbortSignal | undefined) : place.fail(value, "an AbortSignal");
-}
-
-export function readCallback<T>(place: Place, value: unknown): T | undefined {
-  return value === undefined || typeof value === "function" ? (value as T | undefined) : place.fail(value, "a function");
-}
-
-export function throwIfAborted(signal: AbortSignal | undefined): void {
-  if (signal?.aborted) throw new PliantError("aborted", "the signal was aborted", { cause: signal.reason });
-}
-
-/** Lets timers, messages and input in. A message, where there is one, is not delayed as timers are. */
-export function eventLoopTurn(): Promise<void> {
-  return new Promise((resolve) => {
-    if (typeof setImmediate === "function") {
-      setImmediate(resolve);
-      return;
-    }
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
 }

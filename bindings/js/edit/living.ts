@@ -4,7 +4,7 @@ import { type Fields, fields, type FloatArray, integer, list, notNegative, outpu
 import { type Core, disposeSymbol } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { HandleState, State } from "../boundary/state.js";
-import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../deform/deformer.js";
+import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import type { Refinement } from "../deform/sketch.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { measure } from "../shape/quality.js";

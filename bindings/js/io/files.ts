@@ -1,120 +1,126 @@
-// pliant-io.wasm: the readers and writers of text and binary shape files.
+// Reading and writing shape files: one meaning in pages, workers and the command.
 
-import { readFile } from "node:fs/promises";
-import createModule from "#wasm/pliant-io.mjs";
-import { accept, put } from "../boundary/core.js";
-import type { RawDocument, RawIoModule, RawRewriter, RawScratch } from "../boundary/raw.js";
-import { instantiate } from "../boundary/wasm.js";
+import { choice, coordinates, fields, integer, list, Place, toSpace } from "../boundary/check.js";
+import { PliantError } from "../boundary/errors.js";
+import { readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
+import { formatOf, formats } from "./format.js";
+import type { IoModule } from "./module.js";
+import { pauses } from "./pause.js";
+import type { Mesh, ReadOptions, ShapeFile, WritableShape } from "./shape_file.js";
+import { readText, rewriteText, writeText } from "./text.js";
 
-let started: Promise<RawIoModule> | undefined;
+/** A file: its bytes, or a Blob, as a file of the visitor is one. */
+export type FileSource = Blob | ArrayBuffer | ArrayBufferView;
 
-function start(): Promise<RawIoModule> {
-  const load = async () => instantiate(createModule, await WebAssembly.compile(await readFile(new URL("./pliant-io.wasm", import.meta.url))));
-  return (started ??= load());
-}
+/** Readers and writers over one module. */
+export class Files {
+  /** @internal */
+  constructor(readonly io: IoModule) {}
 
-/** What a file holds; positions are in double. */
-export interface Mesh {
-  positions: Float64Array;
-  triangles: Uint32Array;
-  /** Polygons: vertex ids, and where each begins (one more than there are faces). */
-  faceVertices: Uint32Array;
-  faceOffsets: Uint32Array;
-  /** Two a corner, in the order of `faceVertices`; empty where there are none. */
-  texcoords: Float64Array;
-}
-
-/** A document in WASM memory: read from bytes, or made from a mesh; written with new positions. */
-export class ShapeDocument {
-  readonly #raw: RawDocument;
-  readonly #scratch: RawScratch;
-
-  private constructor(module: RawIoModule) {
-    this.#raw = new module.Document();
-    this.#scratch = new module.Scratch();
+  /**
+   * Reads a shape. The ending of `name` tells the format; messages begin with it.
+   * Errors: parse-error (with the line or byte, and the reason), too-large, invalid-option, aborted.
+   */
+  async read(source: FileSource, name: string, options: ReadOptions = {}): Promise<ShapeFile> {
+    const place = new Place("invalid-option", "options");
+    const given = fields(place, options, ["signal", "onProgress"]);
+    const signal = readSignal(place.at("signal"), given.signal);
+    const onProgress = readCallback<ReadOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
+    const format = formatOf(new Place("invalid-option", "name"), name);
+    throwIfAborted(signal);
+    return named(name, async () => {
+      const bytes = await bytesOf(source);
+      const pause = pauses({ signal, onProgress });
+      const read = format === "glb" ? (await import("./glb.js")).readGlb(bytes) : readText(this.io, format, bytes, pause);
+      return { format, dimension: 3, ...(await read), source: new Blob([bytes]) };
+    });
   }
 
-  /** Errors: parse-error, too-large. */
-  static async read(format: string, bytes: Uint8Array): Promise<ShapeDocument> {
-    const document = new ShapeDocument(await start());
-    put(document.#scratch.bytes(bytes.length), bytes);
-    accept(document.#raw.read(format, document.#scratch));
-    document.#scratch.bytes(0);
-    return document;
-  }
-
-  /** Errors: invalid-shape, too-large. */
-  static async from(mesh: Mesh): Promise<ShapeDocument> {
-    const document = new ShapeDocument(await start());
-    const scratch = document.#scratch;
-    put(scratch.doubles(mesh.positions.length), mesh.positions);
-    const polygons = packPolygons(mesh);
-    put(scratch.integers(polygons.length), polygons);
-    accept(document.#raw.assign(scratch));
-    if (mesh.texcoords.length === 0) return document;
-    put(scratch.doubles(mesh.texcoords.length), mesh.texcoords);
-    accept(document.#raw.assignTexcoords(scratch));
-    return document;
-  }
-
-  get mesh(): Mesh {
-    const raw = this.#raw;
-    return {
-      positions: raw.positions().slice(),
-      triangles: raw.triangles().slice(),
-      faceVertices: raw.faceVertices().slice(),
-      faceOffsets: raw.faceOffsets().slice(),
-      texcoords: raw.cornerTexcoords().slice(),
-    };
-  }
-
-  /** Errors: invalid-shape. */
-  write(format: string, positions: Float64Array): Uint8Array {
-    put(this.#scratch.doubles(positions.length), positions);
-    const { status, bytes } = this.#raw.write(format, this.#scratch);
-    accept(status);
-    return bytes.slice();
+  /**
+   * Writes a shape; the ending of `name` tells the format. A file that was read and goes back to its own format keeps all
+   * but its coordinates (and normals, which they leave behind); in another format it keeps what that has room for.
+   * Errors: invalid-shape, invalid-option, too-large.
+   */
+  async write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
+    const format = formatOf(new Place("invalid-option", "name"), name);
+    const mesh = readMesh(shape);
+    if (shape.source && shape.format === format) {
+      const bytes = await bytesOf(shape.source);
+      if (format === "glb") return (await import("./glb.js")).rewriteGlb(bytes, mesh.positions);
+      return rewriteText(this.io, format, bytes, mesh.positions);
+    }
+    if (format === "glb") return (await import("./glb.js")).writeGlb(mesh, shape.texture);
+    return writeText(this.io, format, mesh);
   }
 }
 
-function packPolygons({ faceVertices, faceOffsets }: Mesh): Int32Array {
-  const packed = new Int32Array(faceVertices.length + faceOffsets.length - 1);
-  let at = 0;
-  for (let face = 0; face + 1 < faceOffsets.length; ++face) {
-    const corners = faceVertices.subarray(faceOffsets[face], faceOffsets[face + 1]);
-    packed[at++] = corners.length;
-    packed.set(corners, at);
-    at += corners.length;
-  }
-  return packed;
-}
-
-/** A file passed through in pieces with its coordinates changed. */
-export class ShapeRewriter {
-  readonly #raw: RawRewriter;
-  readonly #scratch: RawScratch;
-
-  private constructor(module: RawIoModule) {
-    this.#raw = new module.Rewriter();
-    this.#scratch = new module.Scratch();
-  }
-
-  static async open(format: string): Promise<ShapeRewriter> {
-    const rewriter = new ShapeRewriter(await start());
-    accept(rewriter.#raw.open(format));
-    return rewriter;
-  }
-
-  /** The next piece of the file, none at the end; `change` gets the coordinates in it, three a point. Errors: parse-error, invalid-shape. */
-  push(piece: Uint8Array, last: boolean, change: (points: Float64Array) => void): Uint8Array {
-    put(this.#scratch.bytes(piece.length), piece);
-    const { status, points } = this.#raw.push(this.#scratch, last);
-    accept(status);
-    const moved = points.slice();
-    if (moved.length > 0) change(moved);
-    put(this.#scratch.doubles(moved.length), moved);
-    const written = this.#raw.emit(this.#scratch);
-    accept(written.status);
-    return written.bytes.slice();
+/** Errors begin with the name of the file. */
+async function named<T>(name: string, work: () => Promise<T>): Promise<T> {
+  try {
+    return await work();
+  } catch (error) {
+    if (!(error instanceof PliantError) || error.code === "aborted") throw error;
+    throw new PliantError(error.code, `${name}: ${error.message}`, { cause: error });
   }
 }
+
+async function bytesOf(source: unknown): Promise<Uint8Array<ArrayBuffer>> {
+  if (source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
+  if (source instanceof ArrayBuffer) return new Uint8Array(source);
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
+  return new Place("invalid-option", "source").fail(source, "a Blob, an ArrayBuffer or a typed array");
+}
+
+const keys = ["positions", "triangles", "dimension", "faceVertices", "faceOffsets", "texcoords", "colors", "texture", "format", "source"];
+
+/** A checked shape with all that a mesh has; without polygons the triangles are the faces. */
+function readMesh(value: unknown): Mesh {
+  const place = new Place("invalid-shape", "shape");
+  const shape = fields(place, value, keys) as unknown as WritableShape;
+  if (shape.format !== undefined) choice(place.at("format"), shape.format, formats);
+  if (shape.source !== undefined && !(shape.source instanceof Blob)) place.at("source").fail(shape.source, "a Blob");
+  const dimension = shape.dimension === undefined ? 3 : integer(place.at("dimension"), shape.dimension, 2, 3);
+  const positions = Float64Array.from(toSpace(coordinates(place.at("positions"), shape.positions, dimension), dimension));
+  const triangles = vertexIds(place.at("triangles"), shape.triangles, positions.length / 3);
+  if (triangles.length % 3 !== 0) place.at("triangles").fail(triangles, "three vertex ids a triangle");
+  const polygons = shape.faceVertices && shape.faceOffsets && shape.faceOffsets.length > 0;
+  const faceVertices = polygons ? vertexIds(place.at("faceVertices"), shape.faceVertices, positions.length / 3) : triangles;
+  const faceOffsets = polygons ? offsets(place.at("faceOffsets"), shape.faceOffsets, faceVertices.length) : triplets(triangles.length / 3);
+  return {
+    positions, triangles, faceVertices, faceOffsets,
+    texcoords: Float64Array.from(sized(place.at("texcoords"), shape.texcoords, 2 * faceVertices.length)),
+    colors: Uint8Array.from(sized(place.at("colors"), shape.colors, positions.length)),
+  };
+}
+
+function numbers(place: Place, value: unknown): ArrayLike<number> {
+  return value === undefined ? [] : (list(place, value, "an array of numbers") as ArrayLike<number>);
+}
+
+/** None, or so many numbers. */
+function sized(place: Place, value: unknown, length: number): ArrayLike<number> {
+  const given = numbers(place, value);
+  return given.length === 0 || given.length === length ? given : place.fail(value, `${length} numbers, or none`);
+}
+
+function vertexIds(place: Place, value: unknown, count: number): Uint32Array {
+  const ids = numbers(place, value);
+  for (let i = 0; i < ids.length; ++i) {
+    if (!(ids[i] >= 0 && ids[i] < count && Number.isInteger(ids[i]))) integer(place.item(i), ids[i], 0, count - 1, "a vertex id");
+  }
+  return Uint32Array.from(ids);
+}
+
+/** Where each polygon begins, and where the last one ends. */
+function offsets(place: Place, value: unknown, corners: number): Uint32Array {
+  const given = numbers(place, value);
+  for (let i = 0; i < given.length; ++i) {
+    const least = i === 0 ? 0 : given[i - 1] + 3;
+    const most = i === 0 ? 0 : corners;
+    if (!(given[i] >= least && given[i] <= most)) integer(place.item(i), given[i], least, most, "where a polygon of three corners or more begins");
+  }
+  return given[given.length - 1] === corners ? Uint32Array.from(given) : place.reject(`ends at ${given[given.length - 1]}; expected ${corners}, the corners there are`);
+}
+
+/** Where triangles begin. */
+const triplets = (count: number): Uint32Array => Uint32Array.from({ length: count + 1 }, (_, i) => 3 * i);

@@ -6,10 +6,11 @@ import { type Accessor, Document, Logger, type mat4, type Node, Primitive, WebIO
 import { ALL_EXTENSIONS } from "@gltf-transform/extensions";
 import { PliantError } from "../boundary/errors.js";
 import { NormalGroups } from "../shape/normals.js";
+import { linearColors, srgbColor } from "./colors.js";
 import { decodersFor, withoutCompression } from "./compression.js";
-import type { Mesh } from "./files.js";
-import { triangleCorners } from "./refined.js";
 import { applyInverse, applyTo, directionBack, directionOut } from "./matrix.js";
+import { triangleCorners } from "./refined.js";
+import type { Mesh } from "./shape_file.js";
 
 const io = new WebIO().setLogger(new Logger(Logger.Verbosity.SILENT)).registerExtensions(ALL_EXTENSIONS);
 
@@ -57,11 +58,23 @@ export class Glb {
     const positions = this.#positions();
     const faceVertices = this.#triangles();
     const faceOffsets = Uint32Array.from({ length: faceVertices.length / 3 + 1 }, (_, i) => 3 * i);
-    return { positions, triangles: faceVertices, faceVertices, faceOffsets, texcoords: this.#texcoords(faceVertices) };
+    return { positions, triangles: faceVertices, faceVertices, faceOffsets, texcoords: this.#texcoords(faceVertices), colors: this.#colors() };
+  }
+
+  /** The one picture that everything in the scene shows. */
+  get texture(): Blob | undefined {
+    const primitives = this.#parts.flatMap((part) => part.primitives);
+    const [first, ...others] = new Set(primitives.map((primitive) => primitive.getMaterial()?.getBaseColorTexture()));
+    const image = first?.getImage();
+    if (!image || others.length > 0 || !primitives.every((primitive) => primitive.getAttribute("TEXCOORD_0"))) return undefined;
+    return new Blob([image], { type: first!.getMimeType() });
   }
 
   /** The file with the vertices at these positions. Errors: invalid-option. */
-  async write(positions: Float64Array): Promise<Uint8Array> {
+  async write(positions: Float64Array): Promise<Uint8Array<ArrayBuffer>> {
+    if (positions.length !== 3 * this.#count) {
+      throw new PliantError("invalid-shape", `positions has ${positions.length / 3} vertices; expected ${this.#count}, as the file it was read from`);
+    }
     const normals = this.#movedNormals(positions);
     const unused = new Set<Accessor>();
     for (const part of this.#parts) {
@@ -81,7 +94,7 @@ export class Glb {
     }
     const root = this.#document.getRoot();
     for (const accessor of unused) if (accessor.listParents().every((parent) => parent === root)) accessor.dispose();
-    return io.writeBinary(this.#document);
+    return (await io.writeBinary(this.#document)) as Uint8Array<ArrayBuffer>;
   }
 
   /** Turns the document into an animation: `frames` one after the other at `times` in seconds. */
@@ -138,6 +151,26 @@ export class Glb {
     return any ? Float64Array.from({ length: 2 * corners.length }, (_, i) => ofVertex[2 * corners[i >> 1] + (i & 1)]) : new Float64Array(0);
   }
 
+  /** Three bytes a vertex: its own colour times that of its material; empty where all are white. */
+  #colors(): Uint8Array {
+    const colors = new Uint8Array(3 * this.#count).fill(255);
+    let any = false;
+    for (const { primitives, first } of this.#parts) {
+      for (const primitive of primitives) {
+        const own = primitive.getAttribute("COLOR_0");
+        const factor = primitive.getMaterial()?.getBaseColorFactor() ?? [1, 1, 1];
+        if (!own && factor.slice(0, 3).every((share) => share === 1)) continue;
+        any = true;
+        const color = [1, 1, 1, 1];
+        for (const v of idsOf(primitive)) {
+          own?.getElement(v, color);
+          srgbColor(color, factor, colors, 3 * (first + v));
+        }
+      }
+    }
+    return any ? colors : new Uint8Array(0);
+  }
+
   /** Of the whole scene, so that primitives that meet stay smooth; undefined where nothing has normals. */
   #movedNormals(positions: Float64Array): Float32Array | undefined {
     const normalOf = (part: Part) => part.primitives.map((p) => p.getAttribute("NORMAL")).find((found) => found);
@@ -181,12 +214,16 @@ function byPosition(node: Node): Map<Accessor, Primitive[]> {
   return groups;
 }
 
+/** The vertices of a primitive, as its mode strings them together. */
+function idsOf(primitive: Primitive): ArrayLike<number> & Iterable<number> {
+  return primitive.getIndices()?.getArray() ?? Uint32Array.from({ length: primitive.getAttribute("POSITION")!.getCount() }, (_, v) => v);
+}
+
 /** Vertex ids, three a triangle; none for points and lines. */
 function trianglesOf(primitive: Primitive): number[] {
   const { TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN } = Primitive.Mode;
   const mode = primitive.getMode();
-  const count = primitive.getAttribute("POSITION")!.getCount();
-  const ids: number[] = Array.from(primitive.getIndices()?.getArray() ?? Array(count).keys());
+  const ids: number[] = Array.from(idsOf(primitive));
   if (mode === TRIANGLES) return ids.slice(0, ids.length - (ids.length % 3));
   const corners = (i: number) => (mode === TRIANGLE_FAN ? [0, i + 1, i + 2] : i % 2 ? [i + 1, i, i + 2] : [i, i + 1, i + 2]);
   if (mode !== TRIANGLE_STRIP && mode !== TRIANGLE_FAN) return [];
@@ -209,20 +246,29 @@ function perVertex(count: number, value: (i: number) => ArrayLike<number>): Floa
   return values;
 }
 
-/** A mesh from another kind of file: vertices are repeated where texture coordinates differ. */
-export function glbOf(mesh: Mesh): { glb: Glb; expand(positions: Float64Array): Float64Array } {
+/** A mesh from another kind of file: vertices are repeated where texture coordinates differ. `image`: the picture on it. */
+export function glbOf(mesh: Mesh, image?: { bytes: Uint8Array<ArrayBuffer>; type: string }): { glb: Glb; expand(positions: Float64Array): Float64Array } {
   const document = new Document();
   document.createBuffer();
   const { source, indices, uv } = splitSeams(mesh);
   const expand = (positions: Float64Array) => Float64Array.from({ length: 3 * source.length }, (_, i) => positions[3 * source[Math.floor(i / 3)] + (i % 3)]);
-  const accessor = (type: "VEC2" | "VEC3" | "SCALAR", array: Float32Array | Uint32Array) =>
+  const accessor = (type: "VEC2" | "VEC3" | "VEC4" | "SCALAR", array: Float32Array | Uint32Array | Uint16Array) =>
     document.createAccessor().setType(type).setArray(array as Float32Array<ArrayBuffer>).setBuffer(document.getRoot().listBuffers()[0]);
   const primitive = document.createPrimitive().setAttribute("POSITION", accessor("VEC3", Float32Array.from(expand(mesh.positions))));
   if (indices.length > 0) primitive.setIndices(accessor("SCALAR", indices)).setAttribute("NORMAL", accessor("VEC3", new Float32Array(3 * source.length)));
   else primitive.setMode(Primitive.Mode.POINTS);
   if (uv.length > 0) primitive.setAttribute("TEXCOORD_0", accessor("VEC2", uv));
+  if (mesh.colors.length > 0) primitive.setAttribute("COLOR_0", accessor("VEC4", linearColors(mesh.colors, source)).setNormalized(true));
+  primitive.setMaterial(matte(document, image));
   document.createScene().addChild(document.createNode("shape").setMesh(document.createMesh("shape").addPrimitive(primitive)));
   return { glb: new Glb(document), expand };
+}
+
+/** Seen from both sides, and not the metal that a file without a material is made of. */
+function matte(document: Document, image: { bytes: Uint8Array<ArrayBuffer>; type: string } | undefined) {
+  const material = document.createMaterial().setDoubleSided(true).setMetallicFactor(0).setRoughnessFactor(0.65);
+  if (image) material.setBaseColorTexture(document.createTexture("picture").setImage(image.bytes).setMimeType(image.type));
+  return material;
 }
 
 /** One vertex for each vertex and texture coordinate that go together. `source`: the mesh's vertex of each. */
@@ -243,4 +289,29 @@ function splitSeams(mesh: Mesh): { source: number[]; indices: Uint32Array; uv: F
     return source.length - 1;
   });
   return { source, indices, uv: Float32Array.from(uv) };
+}
+
+/** Errors: parse-error. */
+export async function readGlb(bytes: Uint8Array): Promise<Mesh & { texture?: Blob }> {
+  const { mesh, texture } = await Glb.read(bytes);
+  return { ...mesh, ...(texture ? { texture } : {}) };
+}
+
+/** A file with its vertices at other places. Errors: invalid-shape. */
+export async function rewriteGlb(bytes: Uint8Array, positions: Float64Array): Promise<Uint8Array<ArrayBuffer>> {
+  return (await Glb.read(bytes)).write(positions);
+}
+
+/** A mesh as a file of its own. */
+export async function writeGlb(mesh: Mesh, texture: Blob | undefined): Promise<Uint8Array<ArrayBuffer>> {
+  const image = texture && { bytes: new Uint8Array(await texture.arrayBuffer()), type: texture.type };
+  const { glb, expand } = glbOf(mesh, image);
+  return glb.write(expand(mesh.positions));
+}
+
+/** One file that shows positions one after the other, at times in seconds; `bytes`: the .glb the mesh was read from, if it was. */
+export async function animateGlb(mesh: Mesh, bytes: Uint8Array | undefined, frames: Float64Array[], times: number[]): Promise<Uint8Array<ArrayBuffer>> {
+  const { glb, expand } = bytes ? { glb: await Glb.read(bytes), expand: (positions: Float64Array) => positions } : glbOf(mesh);
+  glb.animate(frames.map(expand), times);
+  return glb.write(expand(mesh.positions));
 }

@@ -2,10 +2,13 @@
 
 import { extended } from "../edit/growth.js";
 import type { Refinement } from "../deform/sketch.js";
-import type { Mesh } from "./files.js";
+import type { Mesh } from "./shape_file.js";
 
-/** The mesh at rest with a refinement's vertices. Texture coordinates of a new corner are those in the middle of its parents' in the same triangle. */
-export function refinedMesh(mesh: Mesh, refinement: Refinement): Mesh {
+/**
+ * A shape that was read, at rest, with the vertices of a refinement. Faces that were split become triangles. Colours of a new vertex are those
+ * between its parents, texture coordinates of a new corner those between its parents in the same triangle.
+ */
+export function refined(mesh: Mesh, refinement: Refinement): Mesh {
   const { faceVertices, faceOffsets } = mesh;
   const out = new Corners();
   const parts = new TriangleParts(mesh, refinement);
@@ -21,7 +24,8 @@ export function refinedMesh(mesh: Mesh, refinement: Refinement): Mesh {
     }
     first = last;
   }
-  return out.mesh(extended(mesh.positions, 3, refinement.parents));
+  const colors = Uint8Array.from(extended(Float64Array.from(mesh.colors), mesh.colors.length > 0 ? 3 : 0, refinement.parents), Math.round);
+  return out.mesh(extended(mesh.positions, 3, refinement.parents), colors);
 }
 
 /** Corners in `faceVertices` of the triangles: a polygon of k corners has k - 2 of them, in order. */
@@ -99,9 +103,10 @@ class Corners {
     for (const vertex of triangles) this.#triangles.push(vertex);
   }
 
-  mesh(positions: Float64Array): Mesh {
+  mesh(positions: Float64Array, colors: Uint8Array): Mesh {
     return {
       positions,
+      colors,
       triangles: Uint32Array.from(this.#triangles),
       faceVertices: Uint32Array.from(this.#faceVertices),
       faceOffsets: Uint32Array.from(this.#faceOffsets),

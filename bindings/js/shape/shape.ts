@@ -99,9 +99,12 @@ export class Shape {
   }
 }
 
+/** What `read` of pliant/io gives beside a shape: files pass as shapes. */
+const ofFiles = ["faceVertices", "faceOffsets", "texcoords", "colors", "texture", "format", "source"];
+
 function readInput(value: unknown) {
   const place = new Place("invalid-shape", "");
-  const input = fields(new Place("invalid-shape", "shape"), value, ["positions", "triangles", "dimension"]);
+  const input = fields(new Place("invalid-shape", "shape"), value, ["positions", "triangles", "dimension", ...ofFiles]);
   const dimension = input.dimension === undefined ? 3 : readDimension(place.at("dimension"), input.dimension);
   const positions = readCount(place.at("positions"), coordinates(place.at("positions"), input.positions, dimension), dimension, maxVertices);
   const triangles = readTriangles(place.at("triangles"), input.triangles ?? [], positions.length / dimension);

@@ -1,21 +1,24 @@
 // The worker's side of pliant/worker: runs the calls and answers. The page says which WASM to take.
 
 import { PliantError } from "../boundary/errors.js";
-import { nodeModule } from "../boundary/wasm.js";
+import { type InitOptions, nodeModule } from "../boundary/wasm.js";
 import { Deformer } from "../deform/deformer.js";
 import { Handle } from "../deform/handle.js";
 import { Sketch } from "../deform/sketch.js";
 import { Edit } from "../edit/living.js";
 import { makeInit } from "../init.js";
+import { Files } from "../io/files.js";
+import { IoModule } from "../io/module.js";
 import { Pliant } from "../pliant.js";
 import { Shape } from "../shape/shape.js";
 import { patched, type Patch } from "./patch.js";
 import { buffersOf, type Call, packError, type Port, type Reference, type Reply, type Request } from "./protocol.js";
 import { type ClassName, rowOf, type Travel } from "./surface.js";
 
-const init = makeInit(() => Promise.reject(new Error("none was named")));
+const unnamed = () => Promise.reject(new Error("none was named"));
+const init = makeInit(unnamed);
 
-const classes = { Pliant, Shape, Deformer, Handle, Sketch, Edit } satisfies Record<ClassName, unknown>;
+const classes = { Pliant, Shape, Deformer, Handle, Sketch, Edit, Files } satisfies Record<ClassName, unknown>;
 const names = new Map<unknown, ClassName>(Object.entries(classes).map(([name, its]) => [its, name as ClassName]));
 
 type Method = (...args: unknown[]) => unknown;
@@ -65,6 +68,7 @@ class Host {
   #run(call: Call): unknown {
     const { target, method, args } = call;
     if (target === 0 && method === "init") return this.#start(args[0] as Parameters<typeof init>[0]);
+    if (target === 0 && method === "files") return new Files(new IoModule(args[0] as InitOptions, unnamed));
     const object = this.#objects.get(target);
     if (!object) throw new PliantError("disposed", "the object is disposed; expected a live one");
     const { calls } = rowOf(names.get(object.constructor)!);

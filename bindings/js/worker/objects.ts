@@ -10,9 +10,12 @@ import type { Sketch } from "../deform/sketch.js";
 import type { Edit } from "../edit/living.js";
 import { shared } from "../edit/same.js";
 import type { EditMoment } from "../edit/types.js";
+import type { Files } from "../io/files.js";
+import type { ShapeFile, WritableShape } from "../io/shape_file.js";
 import type { DeformerOptions, MethodName } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
+import type { InitOptions } from "../boundary/wasm.js";
 import type { Line } from "./line.js";
 import type { Reference } from "./protocol.js";
 import { type Origin, Remote } from "./remote.js";
@@ -65,7 +68,7 @@ function remote(name: ClassName): typeof Remote {
   class Listed extends Remote {}
   for (const [method, travel] of Object.entries(rowOf(name).calls)) {
     const value = function (this: Remote, ...args: unknown[]) {
-      return this.send(method, travel, args, (reference) => made(travel.gives!, this.line, reference, { asked: this, args }));
+      return this.send(method, travel, args, (reference) => made(travel.gives as keyof typeof classes, this.line, reference, { asked: this, args }));
     };
     Object.defineProperty(Listed.prototype, method, { value, writable: true, configurable: true });
   }
@@ -78,6 +81,38 @@ export interface WorkerPliant extends Omit<Seen<Pliant, "Pliant">, "deformer"> {
   deformer<M extends MethodName>(shape: WorkerShape, options: { method: M } & DeformerOptions<M>): Promise<WorkerDeformer<M>>;
 }
 export class WorkerPliant extends remote("Pliant") {
+  readonly #wasm: () => Promise<InitOptions>;
+  #files: Promise<WorkerFiles> | undefined;
+
+  /** `wasm`: where the worker finds pliant-io.wasm. @internal */
+  constructor(line: Line, reference: Reference, wasm: () => Promise<InitOptions>) {
+    super(line, reference);
+    this.#wasm = wasm;
+  }
+
+  /** Reads a shape file in the worker: the page goes on meanwhile. See {@link Files.read}. */
+  async read(...[source, name, options]: Parameters<Files["read"]>): Promise<ShapeFile> {
+    return (await this.#started()).read(source, name, options);
+  }
+
+  /** Writes a shape file in the worker. See {@link Files.write}. */
+  async write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
+    const own = structuredClone(shape); // the caller may go on with its arrays at once
+    return (await this.#started()).write(own, name);
+  }
+
+  #started(): Promise<WorkerFiles> {
+    const start = async () => {
+      const reference = await this.line.call<Reference>({ target: 0, method: "files", args: [await this.#wasm()] });
+      return new WorkerFiles(this.line, reference);
+    };
+    this.#files ??= start().catch((error) => {
+      this.#files = undefined;
+      throw error;
+    });
+    return this.#files;
+  }
+
   /** Ends the worker. Every later call, on any object of it, is a `disposed` error. */
   dispose(): void {
     this.line.close(new PliantError("disposed", "the worker is disposed; expected a live one"));
@@ -164,10 +199,14 @@ export class WorkerEdit extends remote("Edit") {
   }
 }
 
-const classes = {
-  Pliant: WorkerPliant, Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch, Edit: WorkerEdit,
-} satisfies Record<ClassName, unknown>;
+/** See {@link Files}. */
+interface WorkerFiles extends Seen<Files, "Files"> {}
+class WorkerFiles extends remote("Files") {}
 
-function made(name: ClassName, line: Line, reference: Reference, origin: Origin): Remote {
+const classes = {
+  Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch, Edit: WorkerEdit,
+} satisfies Partial<Record<ClassName, unknown>>;
+
+function made(name: keyof typeof classes, line: Line, reference: Reference, origin: Origin): Remote {
   return new classes[name](line, reference, origin);
 }

@@ -8,6 +8,7 @@ import type { Deformer } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
 import type { Sketch } from "../deform/sketch.js";
 import type { Edit } from "../edit/living.js";
+import type { Files } from "../io/files.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
 
@@ -19,6 +20,7 @@ export interface Classes {
   Handle: Handle;
   Sketch: Sketch;
   Edit: Edit;
+  Files: Files;
 }
 
 export type ClassName = keyof Classes;
@@ -98,6 +100,10 @@ export const surface = {
       apply: { changes: 0 }, run: plain, settle: { options: 0 }, reset: plain, moment: plain,
       positions: into, normals: into, state: plain, sketch: plain, refinement: plain, report: plain, dispose: ends,
     },
+  },
+  Files: {
+    constants: [],
+    calls: { read: { options: 2 }, write: plain },
   },
 } as const satisfies Rows;
 

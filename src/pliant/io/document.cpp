@@ -18,7 +18,6 @@
 namespace pliant::io {
 namespace {
 
-constexpr std::size_t kPieceSize = 1 << 20;
 constexpr std::size_t kMaxVertices = Shape::kMaxVertices;
 
 Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
@@ -41,14 +40,15 @@ std::uint64_t size_bound(FileFormat format, const PolygonMesh& mesh, std::size_t
   const std::uint64_t numbers = mesh.positions.size();
   const std::uint64_t faces = mesh.face_count();
   const std::uint64_t corners = mesh.face_vertices.size();
+  const std::uint64_t colors = mesh.colors.size();
   const std::uint64_t textured = mesh.corner_texcoords.size();
   switch (format) {
     case FileFormat::obj:
-      return header + number * (numbers + mesh.texcoords.size()) + id * (corners + textured) + 2 * faces;
+      return header + number * (numbers + mesh.texcoords.size()) + 6 * colors + id * (corners + textured) + 2 * faces;
     case FileFormat::ply:
-      return header + 8 * numbers + 4 * corners + 16 * textured + 8 * faces;
+      return header + 8 * numbers + colors + 4 * corners + 16 * textured + 8 * faces;
     case FileFormat::off:
-      return header + number * numbers + id * corners + 12 * faces;
+      return header + number * numbers + 4 * colors + id * corners + 12 * faces;
     case FileFormat::stl:
       return header + 50 * std::uint64_t{triangle_ids / 3};
     case FileFormat::xyz:
@@ -93,38 +93,87 @@ Status take_polygons(std::span<const std::int32_t> polygons, PolygonMesh& mesh) 
 
 }  // namespace
 
+/// A file of which a part has been read.
+struct Document::Reading {
+  FileFormat format;
+  Bytes bytes;
+  PolygonCollector polygons;
+  std::unique_ptr<Scanner> scanner;
+  std::vector<double> positions;
+  Draft draft{kPieceSize};
+  std::size_t at = 0;
+
+  Reading(FileFormat file_format, Bytes file)
+      : format(file_format), bytes(std::move(file)), scanner(make_scanner(format, &polygons)) {}
+
+  Status scan();
+};
+
+Document::Document() = default;
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
 Status Document::read(FileFormat format, Bytes bytes) {
+  Status begun = begin(format, std::move(bytes));
+  while (begun.ok() && reading_) {
+    begun = advance().status();
+  }
+  return begun;
+}
+
+Status Document::begin(FileFormat format, Bytes bytes) {
+  reading_.reset();
   if (bytes.size() > kMaxBytes) {
     return too_large({"the file has ", bytes.size(), " bytes; at most ", kMaxBytes, " can be read whole"});
   }
-  PolygonCollector polygons;
-  const std::unique_ptr<Scanner> scanner = make_scanner(format, &polygons);
-  const std::string_view text = text_of(bytes);
-  std::vector<double> positions;
-  Draft draft(kPieceSize);
-  for (std::size_t at = 0; at < text.size();) {
-    draft.clear();
-    const Result<std::size_t> taken = scanner->scan(text.substr(at), true, draft);
-    if (!taken.ok()) {
-      return taken.status();
-    }
-    at += *taken;
-    positions.insert(positions.end(), draft.points().begin(), draft.points().end());
-    if (positions.size() / 3 > kMaxVertices || polygons.too_large()) {
-      return too_large({scanner->place(), ": more than ", kMaxVertices, " vertices, ", PolygonCollector::kMaxCorners,
-                        " corners of faces (", PolygonCollector::kMaxTexturedCorners, " with texture coordinates) or ",
-                        PolygonCollector::kMaxTexcoords, " texture coordinates"});
-    }
+  reading_ = std::make_unique<Reading>(format, std::move(bytes));
+  return {};
+}
+
+Result<double> Document::advance() {
+  if (!reading_) {
+    return Status(ErrorCode::invalid_option, "no file is being read; begin one first");
   }
-  Status status = scanner->finish();
+  Reading& reading = *reading_;
+  const bool ended = reading.at == reading.bytes.size();
+  Status status = ended ? finish_reading() : reading.scan();
+  if (!status.ok() || ended) {
+    reading_.reset();
+  }
   if (!status.ok()) {
     return status;
   }
-  mesh_ = polygons.take();
-  mesh_.positions = std::move(positions);
+  // All bytes are read before the polygons are cut into triangles: the last hundredth.
+  return ended ? 1.0 : 0.99 * static_cast<double>(reading.at) / static_cast<double>(reading.bytes.size());
+}
+
+Status Document::Reading::scan() {
+  draft.clear();
+  const Result<std::size_t> taken = scanner->scan(text_of(bytes).substr(at), true, draft);
+  if (!taken.ok()) {
+    return taken.status();
+  }
+  at += *taken;
+  positions.insert(positions.end(), draft.points().begin(), draft.points().end());
+  if (positions.size() / 3 > kMaxVertices || polygons.too_large()) {
+    return too_large({scanner->place(), ": more than ", kMaxVertices, " vertices, ", PolygonCollector::kMaxCorners,
+                      " corners of faces (", PolygonCollector::kMaxTexturedCorners, " with texture coordinates) or ",
+                      PolygonCollector::kMaxTexcoords, " texture coordinates"});
+  }
+  return {};
+}
+
+Status Document::finish_reading() {
+  Status status = reading_->scanner->finish();
+  if (!status.ok()) {
+    return status;
+  }
+  mesh_ = reading_->polygons.take();
+  mesh_.positions = std::move(reading_->positions);
   triangles_ = triangulate(mesh_);
-  source_ = std::move(bytes);
-  format_ = format;
+  source_ = std::move(reading_->bytes);
+  format_ = reading_->format;
   return {};
 }
 
@@ -160,6 +209,15 @@ Status Document::assign_texcoords(std::span<const double> texcoords) {
   for (std::size_t c = 0; c < corners; ++c) {
     mesh_.corner_texcoords[c] = static_cast<std::uint32_t>(c);
   }
+  return {};
+}
+
+Status Document::assign_colors(std::span<const std::uint8_t> colors) {
+  if (colors.size() != 3 * mesh_.vertex_count()) {
+    return invalid(
+        {"colors has ", colors.size(), " numbers; expected 3 for each of ", mesh_.vertex_count(), " vertices"});
+  }
+  mesh_.colors.assign(colors.begin(), colors.end());
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,23 @@ namespace pliant::io {
 class Document {
  public:
   static constexpr std::size_t kMaxBytes = std::size_t{384} << 20;
+  static constexpr std::size_t kPieceSize = std::size_t{1} << 20;
+
+  Document();
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+  ~Document();
 
   /// Reads a file. After an error the document is what it was before.
   /// Errors: parse_error (line or byte, and the reason), too_large (`kMaxBytes`, or more vertices,
   /// corners or texture coordinates than Shape and PolygonCollector admit).
   Status read(FileFormat format, Bytes bytes);
+
+  /// The same in pieces, for those who want to know how far it is, or to stop: begin, then advance until it returns 1.
+  /// Until then, and after an error, the document is what it was before.
+  Status begin(FileFormat format, Bytes bytes);
+  /// Reads about `kPieceSize` bytes further. Returns the share of the file that has been read.
+  Result<double> advance();
 
   /// Takes a shape from elsewhere instead of a file. positions: 3 n. polygons: for each one the
   /// number of its corners, at least 3, and their vertex ids. After an error the document is what
@@ -30,6 +43,8 @@ class Document {
   /// 2 numbers a corner, in the order of the polygons. To be called after assign or read.
   /// Errors: invalid_shape.
   Status assign_texcoords(std::span<const double> texcoords);
+  /// 3 bytes a vertex: red, green, blue in sRGB. To be called after assign or read. Errors: invalid_shape.
+  Status assign_colors(std::span<const std::uint8_t> colors);
 
   const PolygonMesh& mesh() const { return mesh_; }
   /// The polygons as triangles (triangulate.h), 3 m vertex ids.
@@ -42,6 +57,9 @@ class Document {
   Result<Bytes> write(FileFormat format, std::span<const double> positions) const;
 
  private:
+  struct Reading;
+
+  Status finish_reading();
   Result<Bytes> rewrite(std::span<const double> positions) const;
   Result<Bytes> convert(FileFormat format, std::span<const double> positions) const;
 
@@ -49,6 +67,7 @@ class Document {
   FileFormat format_ = FileFormat::obj;
   PolygonMesh mesh_;
   std::vector<std::uint32_t> triangles_;
+  std::unique_ptr<Reading> reading_;  ///< between begin and the end of the file
 };
 
 }  // namespace pliant::io

@@ -85,6 +85,26 @@ Result<std::size_t> LineScanner::scan(std::string_view input, bool last, Draft& 
   return at;
 }
 
+bool TextScanner::read_color(std::string_view words, double (&rgb)[3]) {
+  std::size_t at = 0;
+  std::size_t count = 0;
+  bool bytes = false;
+  for (std::string_view word = next_word(words, at); !word.empty(); word = next_word(words, at), ++count) {
+    const std::optional<double> value = read_number(word);
+    if (!value || count == 4) {
+      return false;
+    }
+    if (count < 3) {
+      rgb[count] = *value;
+      bytes = bytes || *value > 1.0;
+    }
+  }
+  for (double& share : rgb) {
+    share /= bytes ? 255.0 : 1.0;
+  }
+  return count >= 3;
+}
+
 Status TextScanner::take_point(std::string_view line, std::size_t& kept, std::size_t& at, Draft& draft) {
   constexpr const char* axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {

@@ -169,6 +169,10 @@ Status ObjScanner::scan_line(std::string_view line, Draft& draft) {
     std::size_t kept = 0;
     Status status = take_point(line, kept, at, draft);
     draft.keep(line.substr(kept));
+    double rgb[3];
+    if (status.ok() && polygons_ && read_color(without_comment(line.substr(at)), rgb)) {
+      polygons_->color(vertices_ - 1, rgb);
+    }
     return status;
   }
   if (keyword == "vn") {
@@ -240,10 +244,22 @@ Status ObjScanner::finish() {
 
 std::unique_ptr<Scanner> make_obj_scanner(PolygonCollector* polygons) { return std::make_unique<ObjScanner>(polygons); }
 
+/// A byte as a share of 1, with as many digits as it takes to tell it from the next.
+void append_share(Bytes& out, std::uint8_t value) {
+  append(out, value == 255 ? " 1." : " 0.");
+  const unsigned thousandths = value == 255 ? 0U : (1000U * value + 127U) / 255U;
+  for (const unsigned unit : {100U, 10U, 1U}) {
+    out.push_back(static_cast<std::uint8_t>('0' + thousandths / unit % 10));
+  }
+}
+
 void write_obj(const PolygonMesh& mesh, std::span<const double> positions, Bytes& out) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     append(out, "v ");
     append_numbers(out, &positions[3 * v], 3);
+    for (std::size_t c = 3 * v; c < 3 * v + 3 && c < mesh.colors.size(); ++c) {
+      append_share(out, mesh.colors[c]);
+    }
     out.push_back('\n');
   }
   for (std::size_t t = 0; t < mesh.texcoords.size(); t += 2) {

@@ -9,6 +9,15 @@
 namespace pliant::io {
 namespace {
 
+std::string_view without_last_words(std::string_view words, int count) {
+  std::size_t end = words.size();
+  for (; count > 0; --count) {
+    while (end > 0 && is_blank(words[end - 1])) --end;
+    while (end > 0 && !is_blank(words[end - 1])) --end;
+  }
+  return words.substr(0, end);
+}
+
 class OffScanner final : public LineScanner {
  public:
   explicit OffScanner(PolygonCollector* polygons) : polygons_(polygons) {}
@@ -27,6 +36,7 @@ class OffScanner final : public LineScanner {
 
   PolygonCollector* polygons_;
   Expected expected_ = Expected::header;
+  bool has_colors_ = false;
   bool has_normals_ = false;
   bool has_texcoords_ = false;
   std::uint64_t vertex_count_ = 0;
@@ -72,7 +82,7 @@ Status OffScanner::scan_header(std::string_view line, Draft& draft) {
     return found;
   };
   has_texcoords_ = take("ST");
-  take("C");
+  has_colors_ = take("C");
   const std::size_t normal_letter = length;
   has_normals_ = take("N");
   if (!take("OFF")) {
@@ -118,10 +128,21 @@ Status OffScanner::scan_vertex(std::string_view line, Draft& draft) {
   if (vertices_ == vertex_count_) {
     expected_ = face_count_ == 0 ? Expected::nothing : Expected::faces;
   }
-  if (!has_texcoords_ || !polygons_) {
+  if (!polygons_) {
     return {};
   }
-  return read_vertex_texcoord(words.substr(at));
+  std::string_view color = words.substr(at);
+  if (has_texcoords_) {
+    Status read = read_vertex_texcoord(color);
+    if (!read.ok()) {
+      return read;
+    }
+  }
+  double rgb[3];
+  if (has_colors_ && read_color(has_texcoords_ ? without_last_words(color, 2) : color, rgb)) {
+    polygons_->color(vertices_ - 1, rgb);
+  }
+  return {};
 }
 
 /// Colours of three or four columns may stand before them, so these are the last two.
@@ -182,9 +203,10 @@ Status OffScanner::finish() {
     case Expected::faces:
       return ends_early(faces_, face_count_, "faces");
     case Expected::nothing:
-      return require_vertices(vertices_);
+      break;
   }
-  return {};
+  Status vertices_found = require_vertices(vertices_);
+  return vertices_found.ok() && polygons_ ? polygons_->finish(vertices_, "line", 0) : vertices_found;
 }
 
 }  // namespace
@@ -192,13 +214,17 @@ Status OffScanner::finish() {
 std::unique_ptr<Scanner> make_off_scanner(PolygonCollector* polygons) { return std::make_unique<OffScanner>(polygons); }
 
 void write_off(const PolygonMesh& mesh, std::span<const double> positions, Bytes& out) {
-  append(out, "OFF\n");
+  append(out, mesh.colors.empty() ? "OFF\n" : "COFF\n");
   append_count(out, mesh.vertex_count());
   out.push_back(' ');
   append_count(out, mesh.face_count());
   append(out, " 0\n");
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     append_numbers(out, &positions[3 * v], 3);
+    for (std::size_t c = 3 * v; c < 3 * v + 3 && c < mesh.colors.size(); ++c) {
+      out.push_back(' ');
+      append_count(out, mesh.colors[c]);
+    }
     out.push_back('\n');
   }
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

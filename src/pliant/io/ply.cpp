@@ -49,6 +49,7 @@ class PlyScanner final : public Scanner {
   std::uint64_t index_ = 0;  ///< record within the element
   std::uint64_t vertices_ = 0;
   bool vertex_texcoords_ = false;
+  bool vertex_colors_ = false;
   bool blank_ = false;  ///< the line read was blank
   PlyRecord record_;
 };
@@ -105,19 +106,19 @@ Result<std::size_t> PlyScanner::scan_header(std::string_view input, bool last, D
 
 void PlyScanner::set_up(Draft& draft) {
   draft.keep(header_->rewritten);
-  bool has_u = false;
-  bool has_v = false;
+  std::uint32_t roles = 0;
+  const auto has = [&roles](PlyRole role) { return (roles >> static_cast<int>(role) & 1) != 0; };
   for (PlyElement& element : header_->elements) {
     for (PlyProperty& property : element.properties) {
       // Without a collector nobody asks for what is not a coordinate.
       if (!polygons_ && property.role > PlyRole::z) {
         property.role = PlyRole::keep;
       }
-      has_u = has_u || property.role == PlyRole::u;
-      has_v = has_v || property.role == PlyRole::v;
+      roles |= 1U << static_cast<int>(property.role);
     }
   }
-  vertex_texcoords_ = has_u && has_v;
+  vertex_texcoords_ = has(PlyRole::u) && has(PlyRole::v);
+  vertex_colors_ = has(PlyRole::red) && has(PlyRole::green) && has(PlyRole::blue);
 }
 
 Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, Draft& draft) {
@@ -181,10 +182,17 @@ Status PlyScanner::take_record(const PlyElement& element, std::string_view bytes
   return polygons_ ? take_polygons(element) : Status();
 }
 
+/// The number that stands for full light.
+double color_unit(PlyType type) {
+  constexpr double units[] = {127.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0, 1.0, 1.0};
+  return units[static_cast<int>(type)];
+}
+
 /// Works on lines and on binary records: between the fields of a line stand blanks, between those
 /// of a binary record nothing. A dropped field takes the blanks before it along.
 Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes, Draft& draft) {
   double texcoord[2] = {0.0, 0.0};
+  double rgb[3] = {0.0, 0.0, 0.0};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     const PlyRecord::Field& field = record_.fields[i];
@@ -201,6 +209,10 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
       continue;
     }
     const double value = record_.values[field.first];
+    if (role >= PlyRole::red) {
+      rgb[static_cast<int>(role) - static_cast<int>(PlyRole::red)] = value / color_unit(element.properties[i].type);
+      continue;
+    }
     if (!std::isfinite(value)) {
       return failure({element.properties[i].name, " of vertex ", index_, " is not finite"});
     }
@@ -213,6 +225,9 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
     kept = field.end;
   }
   draft.keep(bytes.substr(kept));
+  if (vertex_colors_) {
+    polygons_->color(vertices_, rgb);
+  }
   ++vertices_;
   if (vertex_texcoords_) {
     polygons_->texcoord(texcoord[0], texcoord[1]);
@@ -346,6 +361,9 @@ void write_ply(const PolygonMesh& mesh, std::span<const double> positions, Bytes
   append(out, "ply\nformat binary_little_endian 1.0\nelement vertex ");
   append_count(out, mesh.vertex_count());
   append(out, "\nproperty double x\nproperty double y\nproperty double z\n");
+  if (!mesh.colors.empty()) {
+    append(out, "property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  }
   if (mesh.face_count() > 0) {
     append(out, "element face ");
     append_count(out, mesh.face_count());
@@ -355,8 +373,11 @@ void write_ply(const PolygonMesh& mesh, std::span<const double> positions, Bytes
     }
   }
   append(out, "end_header\n");
-  for (const double value : positions) {
-    store(out, value, false);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    store(out, positions[i], false);
+    if (i % 3 == 2 && !mesh.colors.empty()) {
+      out.insert(out.end(), &mesh.colors[i - 2], &mesh.colors[i - 2] + 3);
+    }
   }
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const std::uint32_t first = mesh.face_offsets[f];

@@ -50,7 +50,8 @@ PlyRole vertex_role(const PlyProperty& property) {
                              {"nx", PlyRole::drop},     {"ny", PlyRole::drop},     {"nz", PlyRole::drop},
                              {"u", PlyRole::u},         {"v", PlyRole::v},         {"s", PlyRole::u},
                              {"t", PlyRole::v},         {"texture_u", PlyRole::u}, {"texture_v", PlyRole::v},
-                             {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}};
+                             {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}, {"red", PlyRole::red},
+                             {"green", PlyRole::green}, {"blue", PlyRole::blue}};
   for (const Named& known : names) {
     if (property.name == known.name && !property.is_list) {
       return known.role;

@@ -23,6 +23,9 @@ enum class PlyRole {
   z,                 ///
   u,                 ///< texture coordinates of the vertex
   v,                 ///
+  red,               ///< colour of the vertex: whole numbers up to the largest of their type, or shares
+  green,             ///
+  blue,              ///
   corners,           ///< the vertex ids of a polygon
   corner_texcoords,  ///< two numbers a corner of the polygon
   strips             ///< triangle strips, one behind the other with -1 between

@@ -55,10 +55,12 @@ std::string take_words(const PlyProperty& property, std::uint64_t count, std::st
       continue;
     }
     const std::optional<double> value = read_number(word);
-    if (!value) {
+    const bool is_color =
+        property.role >= PlyRole::red && property.role <= PlyRole::blue;  // no reason to refuse a file
+    if (!value && !is_color) {
       return wrong_number(property, word);
     }
-    record.values.push_back(*value);
+    record.values.push_back(value.value_or(0.0));
   }
   return {};
 }

@@ -1,5 +1,8 @@
 #include "pliant/io/polygon_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pliant/core/message.h"
 
 namespace pliant::io {
@@ -41,7 +44,19 @@ void PolygonCollector::end_polygon() {
 
 void PolygonCollector::texcoord(double u, double v) { mesh_.texcoords.insert(mesh_.texcoords.end(), {u, v}); }
 
-Status PolygonCollector::finish(std::uint64_t vertex_count, const char* unit, int first_id) const {
+void PolygonCollector::color(std::uint64_t vertex, const double (&rgb)[3]) {
+  mesh_.colors.resize(3 * vertex, 255);
+  for (const double share : rgb) {
+    // What is no number is black, as a cast of it would be undefined.
+    const double inside = share > 0.0 ? std::min(share, 1.0) : 0.0;
+    mesh_.colors.push_back(static_cast<std::uint8_t>(std::lround(255.0 * inside)));
+  }
+}
+
+Status PolygonCollector::finish(std::uint64_t vertex_count, const char* unit, int first_id) {
+  if (!mesh_.colors.empty()) {
+    mesh_.colors.resize(3 * vertex_count, 255);
+  }
   const auto check = [&](const Largest& largest, std::uint64_t count, const char* kind, const char* plural) -> Status {
     if (!largest.any || largest.id < count) {
       return {};

@@ -22,6 +22,7 @@ struct PolygonMesh {
   std::vector<double> texcoords;                ///< 2 t
   std::vector<std::uint32_t> corner_texcoords;  ///< an id into texcoords, or no_texcoord, a corner;
                                                 ///< empty where no polygon has texture coordinates
+  std::vector<std::uint8_t> colors;             ///< 3 n, red, green, blue in sRGB; empty where no vertex has any
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t face_count() const { return face_offsets.size() - 1; }
@@ -50,6 +51,8 @@ class PolygonCollector {
   /// edges) is left out.
   void end_polygon();
   void texcoord(double u, double v);
+  /// The colour of a vertex, each share from 0 to 1; vertices in ascending order, some may be left out and are white.
+  void color(std::uint64_t vertex, const double (&rgb)[3]);
 
   bool too_large() const {
     return mesh_.face_vertices.size() > kMaxCorners || mesh_.corner_texcoords.size() > kMaxTexturedCorners ||
@@ -59,7 +62,7 @@ class PolygonCollector {
 
   /// Checks every id against the counts. For the message: `unit` of places, "line" or "byte", and
   /// the id the format gives the first vertex. Errors: parse_error.
-  Status finish(std::uint64_t vertex_count, const char* unit, int first_id) const;
+  Status finish(std::uint64_t vertex_count, const char* unit, int first_id);
   /// The mesh, without positions.
   PolygonMesh take() { return std::move(mesh_); }
 

@@ -20,6 +20,7 @@ const root = resolve(import.meta.dirname, "../../..");
 const entries = `
 export * as pliant from "pliant";
 export * as inline from "pliant/inline";
+export * as io from "pliant/io";
 export * as worker from "pliant/worker";
 export * as three from "pliant/three";
 `;

@@ -10,6 +10,7 @@ export const installed = join(consumer, "node_modules/pliant");
 export interface Entries {
   pliant: typeof import("../../../bindings/js/index.js");
   inline: typeof import("../../../bindings/js/inline.js");
+  io: typeof import("../../../bindings/js/io.js");
   worker: typeof import("../../../bindings/js/worker.js");
   three: typeof import("../../../bindings/js/three.js");
 }

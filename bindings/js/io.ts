@@ -1,0 +1,45 @@
+// pliant/io: shape files in and out, in pages, in workers and in Node; pliant-io.wasm is loaded with the first file.
+
+import { fields, flag, Place } from "./boundary/check.js";
+import { fetchBinary, type InitOptions, readInitOptions } from "./boundary/wasm.js";
+import { Files, type FileSource } from "./io/files.js";
+import { IoModule } from "./io/module.js";
+import type { ReadOptions, ShapeFile, WritableShape } from "./io/shape_file.js";
+
+export { PliantError, type ErrorCode } from "./boundary/errors.js";
+export type { InitOptions } from "./boundary/wasm.js";
+export type { Files, FileSource } from "./io/files.js";
+export { type FileFormat, formats } from "./io/format.js";
+export { refined } from "./io/refined.js";
+export type { Mesh, ReadOptions, ReadProgress, ShapeFile, WritableShape } from "./io/shape_file.js";
+
+export interface FilesOptions extends InitOptions {
+  /** Takes the WASM from inside the script instead of from a file beside it: the default for a page opened from a file. */
+  inline?: boolean;
+}
+
+let current: Files | undefined;
+
+/**
+ * Says where pliant-io.wasm comes from, before the first file; `read` and `write` then use it. Nothing is loaded yet.
+ * Options left out: `pliant-io.wasm` beside this script. Errors: invalid-option.
+ */
+export function init(options?: FilesOptions): Files {
+  const place = new Place("invalid-option", "options");
+  const { inline, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline"], "option of init");
+  const source = readInitOptions(rest);
+  const inside = inline === undefined ? globalThis.location?.protocol === "file:" : flag(place.at("inline"), inline);
+  const unpacked = async () => (await import("./io/unpack.js")).unpackIo();
+  current ??= new Files(new IoModule(source, inside ? unpacked : () => fetchBinary(new URL("./pliant-io.wasm", import.meta.url))));
+  return current;
+}
+
+/** See {@link Files.read}. */
+export async function read(source: FileSource, name: string, options?: ReadOptions): Promise<ShapeFile> {
+  return init().read(source, name, options);
+}
+
+/** See {@link Files.write}. */
+export async function write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
+  return init().write(shape, name);
+}

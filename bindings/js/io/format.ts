@@ -1,0 +1,20 @@
+// File formats, by the ending of a name.
+
+import { Place } from "../boundary/check.js";
+
+/** Formats of pliant-io.wasm; their files can be passed through in pieces. */
+export const textFormats = ["obj", "ply", "off", "stl", "xyz"] as const;
+
+/** What `read` and `write` know: names end so. */
+export const formats = [...textFormats, "glb"] as const;
+
+export type TextFormat = (typeof textFormats)[number];
+export type FileFormat = (typeof formats)[number];
+
+/** The format that a name asks for. Errors: invalid-option. */
+export function formatOf(place: Place, name: unknown): FileFormat {
+  const expected = `a name that ends in ${formats.map((format) => `.${format}`).join(" ")}`;
+  if (typeof name !== "string") return place.fail(name, expected);
+  const ending = /\.([^./\\]*)$/.exec(name)?.[1].toLowerCase();
+  return formats.find((format) => format === ending) ?? place.fail(name, expected);
+}
