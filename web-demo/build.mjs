@@ -11,8 +11,8 @@ import { slimThree } from "./slim-three.mjs";
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 
-/** Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the module alone takes 270 kB of what is here, inlined. */
-const budget = { raw: 1.4e6, gzip: 600e3 };
+/** Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the modules alone take 320 kB of what is here, inlined, the glTF library 40. */
+const budget = { raw: 1.5e6, gzip: 615e3 };
 
 /** The module "#shapes": what build-shapes.mjs made. */
 const shapesPlugin = {
