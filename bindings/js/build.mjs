@@ -78,7 +78,7 @@ async function bundle(input, options) {
 async function script(file, wasm) {
   const build = await rolldown({
     input: join(source, file),
-    plugins: [provide({}, wasm)],
+    plugins: [provide({ "#draco": noDraco }, wasm)],
     resolve: { extensionAlias: { ".js": [".ts", ".js"] } },
   });
   const { output: [chunk] } = await build.generate({ ...output, format: "iife", codeSplitting: false });
@@ -96,6 +96,10 @@ async function dracoModule() {
     export const wasm = ${JSON.stringify(gzipSync(wasm, { level: 9 }).toString("base64"))};
     export default DracoDecoderModule;`;
 }
+
+/** In its place where everything is in one script: it weighs more than all other readers, and few files need it. */
+const noDraco = () => `export const wasm = ${JSON.stringify(gzipSync("").toString("base64"))};
+  export default () => { throw new Error("it is compressed with Draco, whose decoder is not part of this script; expected a file without"); };`;
 
 const exported = (value) => `export default ${JSON.stringify(value)};`;
 
