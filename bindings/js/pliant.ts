@@ -9,7 +9,7 @@ import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
 import { Edit } from "./edit/living.js";
 import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
 import { Shape, shapeFor, type ShapeInput } from "./shape/shape.js";
-import { Sketch, type SketchOptions } from "./deform/sketch.js";
+import { type Camera, limbStroke, Sketch, type SketchOptions } from "./deform/sketch.js";
 
 /** What `init` resolves to. */
 export class Pliant {
@@ -33,6 +33,11 @@ export class Pliant {
   /** Chooses the limb of a mesh that a stroke was drawn on, to be posed by more strokes. Errors: invalid-shape, invalid-option. */
   sketch(shape: Shape, options: SketchOptions): Sketch {
     return new Sketch(this.#core, shape, options);
+  }
+
+  /** The limb under a pixel as a reference stroke, from the body to there: for a gesture that leaves the shape at once. Errors: invalid-option. */
+  limbStroke(shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> }): [x: number, y: number][] {
+    return limbStroke(this.#core, shape, options);
   }
 
   /** Compares a shape with deformed positions of its vertices. Errors: invalid-option. */

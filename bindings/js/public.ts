@@ -14,7 +14,7 @@ export type * from "./edit/types.js";
 export type { Selection } from "./shape/selection.js";
 export { Shape, type ShapeInput, type ShapeReport } from "./shape/shape.js";
 export {
-  type Camera, type Mirror, type Profile, type Refinement, Sketch, type SketchOptions, type SketchPose, type SketchSeed, type SketchState, type Stroke,
+  type Camera, type Hold, type Mirror, type Profile, type Refinement, Sketch, type SketchOptions, type SketchPose, type SketchSeed, type SketchState, type Stroke,
 } from "./deform/sketch.js";
 export type { HandleState, State } from "./boundary/state.js";
 export type { Transform } from "./shape/transform.js";

@@ -8,6 +8,7 @@
 
 #include "bound_deformation.h"
 #include "bound_shape.h"
+#include "pliant/sketch/limb_axis.h"
 #include "pliant/sketch/sketch.h"
 
 namespace pliant::bindings {
@@ -88,13 +89,14 @@ class Unpacker {
 /// own buffers, valid until the next call.
 class BoundSketch final : public BoundDeformation {
  public:
-  StatusValue build(const BoundShape& shape, bool smooth, bool mirrored, const Scratch& scratch) {
+  StatusValue build(const BoundShape& shape, bool smooth, bool mirrored, int hold, const Scratch& scratch) {
     Unpacker from(scratch);
     const Result<Camera> camera = Camera::create(from.camera());
     if (!camera.ok()) return to_value(camera.status());
     const Stroke reference = from.stroke();
     SketchOptions options;
     options.smooth = smooth;
+    options.hold = static_cast<Hold>(hold);
     if (mirrored) {
       Plane& plane = options.mirror.emplace();
       plane.point = from.vector();
@@ -108,6 +110,17 @@ class BoundSketch final : public BoundDeformation {
     if (built.ok()) sketch_ = std::move(*built);
     return to_value(built.status());
   }
+  /// Keeps the stroke along the limb under a pixel for the next call; needs no sketch.
+  StatusValue find_limb(const BoundShape& shape, const Scratch& scratch) {
+    Unpacker from(scratch);
+    const Result<Camera> camera = Camera::create(from.camera());
+    if (!camera.ok()) return to_value(camera.status());
+    const Result<Stroke> found = stroke_along_limb(*shape.get(), *camera, from.stroke().col(0));
+    if (found.ok()) numbers_.assign(found->data(), found->data() + found->size());
+    return to_value(found.status());
+  }
+  val found_limb() const { return view_of(numbers_); }
+  bool held_at_end() const { return sketch_->held_at_end(); }
   StatusValue redraw(const Scratch& scratch) {
     Unpacker from(scratch);
     const Result<Camera> camera = Camera::create(from.camera());
@@ -225,6 +238,9 @@ EMSCRIPTEN_BINDINGS(pliant_sketch) {
   emscripten::class_<BoundSketch, emscripten::base<BoundDeformation>>("Sketch")
       .constructor<>()
       .function("build", &BoundSketch::build)
+      .function("findLimb", &BoundSketch::find_limb)
+      .function("foundLimb", &BoundSketch::found_limb)
+      .function("heldAtEnd", &BoundSketch::held_at_end)
       .function("redraw", &BoundSketch::redraw)
       .function("bend", &BoundSketch::bend)
       .function("unbend", &BoundSketch::unbend)

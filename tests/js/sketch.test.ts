@@ -76,6 +76,48 @@ describe("a region", () => {
   });
 });
 
+describe("hold", () => {
+  const reversed = (stroke: number[][]) => stroke.slice().reverse();
+  // A limb of which four fifths lie above the stroke's end, or below its start.
+  const low = curved(0, 0.05, 0.3, () => 0);
+
+  it("is of the larger side, whichever way one draws", () => {
+    const [up, down] = [make({ reference: low }), make({ reference: reversed(low) })];
+    expect([up.held(), down.held()]).toEqual(["end", "start"]);
+    expect(up.labels()).toEqual(down.labels());
+    expect(up.labels()[n - 1]).toBe(0); // the far lid
+    up.bend(curved(0, 0.05, 0.3, () => 1));
+    down.bend(reversed(curved(0, 0.05, 0.3, () => 1)));
+    expect(difference(doubles(up), doubles(down))).toBeLessThan(1e-3);
+  });
+
+  it("is of the end asked for, in scripts too", async () => {
+    const up = make({ reference: low, hold: "start" });
+    expect(up.held()).toBe("start");
+    expect(up.labels()[n - 1]).toBe(2);
+    const target = curved(0, 0.05, 0.3, () => 1);
+    up.bend(target);
+    const step = { method: "sketch" as const, camera, reference: low, hold: "start" as const, bend: { target } };
+    const { positions } = await pliant.edit(shape, { format: "pliant-edit", version: 1, steps: [step] });
+    expect(difference(positions, doubles(up))).toBeLessThan(1e-6);
+    expect(() => make({ hold: "both" })).toThrow(/^hold is "both"; expected/);
+  });
+});
+
+describe("a stroke that leaves the shape at once", () => {
+  it("is refused, and the limb it began on has a stroke of its own", () => {
+    const tip = pixel(0, 0.95);
+    const away = Array.from({ length: 40 }, (_, i) => [tip[0] + 10 * i, tip[1]]);
+    expect(() => make({ reference: away })).toThrow(/^reference leaves the shape after \d+ % of its length; expected a stroke along a limb/);
+    const stroke = pliant.limbStroke(shape, { camera, pixel: tip });
+    expect(stroke.at(-1)![1]).toBeLessThan(stroke[0][1] - 100);
+    expect(Math.max(...stroke.map(([x]) => Math.abs(x - tip[0])))).toBeLessThan(5);
+    expect(make({ reference: stroke }).labels()[n - 1]).toBeGreaterThan(0);
+    expect(() => pliant.limbStroke(shape, { camera, pixel: [5, 5] })).toThrow(/^pixel lies beside the shape/);
+    expect(() => pliant.limbStroke(shape, { camera, pixel: [5, Number.NaN] })).toThrow(/^pixel/);
+  });
+});
+
 describe("a bend", () => {
   it("that goes where the reference is changes nothing", () => {
     const sketch = make();

@@ -330,6 +330,8 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     const there = await library.shape(coarse);
     const [here, sketch] = [make({}, coarseShape), await library.sketch(there, { camera, reference: straight })];
     expect(await sketch.labels()).toEqual(here.labels());
+    expect(await sketch.held()).toBe(here.held());
+    expect(await library.limbStroke(there, { camera, pixel: pixel(0, 0.9) })).toEqual(pliant.limbStroke(coarseShape, { camera, pixel: pixel(0, 0.9) }));
     here.bend(arc, { unfinished: true });
     await sketch.bend(arc, { unfinished: true });
     expect(await sketch.positions()).toEqual(here.positions());

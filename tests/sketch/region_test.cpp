@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include "pliant/sketch/limb_axis.h"
 #include "sketch/sketch_support.h"
 
 namespace pliant {
@@ -208,6 +209,92 @@ TEST_CASE("several components: the one drawn on is posed") {
   const std::vector<Index> labels = sketch->labels();
   for (Index v = 0; v < far.vertices(); ++v) CHECK(labels[v] == 0);
   CHECK(!with_label(*sketch, 1).empty());
+}
+
+TEST_CASE("the larger side is held, whichever way one draws; the hold can be asked for") {
+  const auto out = test::sketch_on(man(), over_arm());
+  Stroke inwards = over_arm().rowwise().reverse(), target = arm_bent().rowwise().reverse();
+  const auto in = test::sketch_on(man(), inwards);
+  CHECK_FALSE(out->held_at_end());
+  CHECK(in->held_at_end());
+  CHECK(in->labels() == out->labels());
+  // Strokes drawn the other way say the same.
+  REQUIRE(out->bend(arm_bent()).ok());
+  REQUIRE(in->bend(target).ok());
+  CHECK((in->positions() - out->positions()).cwiseAbs().maxCoeff() < 1e-3);
+  REQUIRE(out->twist(0.5).ok());
+  REQUIRE(in->twist(0.5).ok());
+  CHECK((in->positions() - out->positions()).cwiseAbs().maxCoeff() < 1e-3);
+
+  // From the tip to far into the trunk: most of the man stays.
+  const auto leg = test::sketch_on(man(), test::straight(front_pixel(0.1, 0.02), front_pixel(0.1, 0.42)));
+  CHECK(leg->held_at_end());
+  CHECK(with_label(*leg, 0).size() > 3 * (with_label(*leg, 1).size() + with_label(*leg, 2).size()));
+
+  SketchOptions options;
+  options.hold = Hold::start;
+  const auto flipped = test::sketch_on(man(), inwards, options);
+  CHECK_FALSE(flipped->held_at_end());
+  const Points rest = test::positions_of(man());
+  REQUIRE(flipped->bend(target).ok());
+  const Points bent = flipped->positions();
+  for (Index v = 0; v < man().vertices(); ++v) {
+    if (rest(0, v) > 0.43) CHECK(bent.col(v) == rest.col(v));
+    if (rest(0, v) < 0.0) CHECK((bent.col(v) - rest.col(v)).norm() > 0.01);
+  }
+  // The same shape but for a rigid motion.
+  const auto far = [&](const Points& p) { return (p.col(0) - p.col(man().vertices() - 1)).norm(); };
+  CHECK(far(bent) == doctest::Approx(far(in->positions())).epsilon(0.05));
+  options.hold = Hold::end;
+  CHECK(test::sketch_on(man(), over_arm(), options)->held_at_end());
+
+  // Over a region that is given the static part is held.
+  options = {};
+  options.labels = out->labels();
+  CHECK(test::sketch_on(man(), inwards, options)->held_at_end());
+  CHECK_FALSE(test::sketch_on(man(), over_arm(), options)->held_at_end());
+  REQUIRE(out->redraw(*Camera::create(test::front_view()), inwards).ok());
+  CHECK(out->held_at_end());
+}
+
+TEST_CASE("an unfinished target goes on from where it was drawn, also towards the held end") {
+  Stroke inwards = over_arm().rowwise().reverse(), target = arm_bent().rowwise().reverse();
+  const auto sketch = test::sketch_on(man(), inwards);
+  REQUIRE(sketch->bend(target).ok());
+  const Points whole = sketch->positions();
+  REQUIRE(sketch->bend(target.leftCols(60), true).ok());
+  CHECK((sketch->positions() - whole).cwiseAbs().maxCoeff() < 0.02);
+}
+
+TEST_CASE("a stroke that leaves the shape at once is refused; the limb it began on has a stroke of its own") {
+  const auto shape = test::shape_of(man());
+  const Camera camera = *Camera::create(test::front_view());
+  const Eigen::Vector2d paw = front_pixel(0.4, 0.81);
+  const Status status = Sketch::create(shape, camera, test::straight(paw, paw - Eigen::Vector2d(0, 250))).status();
+  CHECK(status.code() == ErrorCode::invalid_option);
+  CHECK(status.message().find("reference leaves the shape after ") == 0);
+
+  const auto arm = stroke_along_limb(*shape, camera, paw);
+  REQUIRE_MESSAGE(arm.ok(), arm.status().message());
+  // From the shoulder to the hand, along the middle.
+  CHECK(((*arm)(0, 0) - 500.0) / 500.0 == doctest::Approx(0.2).epsilon(0.2));
+  CHECK(((*arm)(0, arm->cols() - 1) - 500.0) / 500.0 == doctest::Approx(0.4).epsilon(0.1));
+  CHECK((arm->row(1).array() - front_pixel(0.0, 0.81).y()).abs().maxCoeff() < 25.0);
+  const auto sketch = Sketch::create(shape, camera, *arm);
+  REQUIRE_MESSAGE(sketch.ok(), sketch.status().message());
+  const Points rest = test::positions_of(man());
+  const std::vector<Index> labels = (*sketch)->labels();
+  for (Index v = 0; v < man().vertices(); ++v) {
+    if (rest(0, v) < 0.15) CHECK(labels[v] == kStaticLabel);
+    if (rest(0, v) > 0.3) CHECK(labels[v] != kStaticLabel);
+  }
+  // Half way up a leg, too; not on the trunk, not beside the shape.
+  const auto leg = stroke_along_limb(*shape, camera, front_pixel(0.1, 0.15));
+  REQUIRE_MESSAGE(leg.ok(), leg.status().message());
+  CHECK(leg->row(1).minCoeff() > front_pixel(0.0, 0.45).y());
+  CHECK(stroke_along_limb(*shape, camera, front_pixel(0.9, 0.9)).status().message().find("pixel lies beside") == 0);
+  const auto ball = test::shape_of(test::transformed(test::sphere(3), 0.4, Eigen::Matrix3d::Identity(), {0, 0, 0.5}));
+  CHECK(stroke_along_limb(*ball, camera, front_pixel(0.0, 0.6)).status().code() == ErrorCode::invalid_option);
 }
 
 TEST_CASE("bad arguments are named and nothing is built") {

@@ -132,8 +132,12 @@ export interface RawDeformer extends RawDeformation {
  * POSE: heading, length, turns, twist, scale beside how many turns and points of each profile.
  */
 export interface RawSketch extends RawDeformation {
-  /** CAMERA, STROKE (reference), if mirrored a point and a normal, then beside how many there are the partitions as STROKEs; labels are the other integers. */
-  build(shape: RawShape, smooth: boolean, mirrored: boolean, scratch: RawScratch): RawStatus;
+  /** CAMERA, STROKE (reference), if mirrored a point and a normal, then beside how many there are the partitions as STROKEs; labels are the other integers. hold: 0 larger, 1 start, 2 end. */
+  build(shape: RawShape, smooth: boolean, mirrored: boolean, hold: number, scratch: RawScratch): RawStatus;
+  /** CAMERA, a STROKE of one pixel: the limb under it, for the next call. Before `build`, too. */
+  findLimb(shape: RawShape, scratch: RawScratch): RawStatus;
+  foundLimb(): Float64Array; // 2 a sample
+  heldAtEnd(): boolean;
   /** CAMERA, STROKE. */
   redraw(scratch: RawScratch): RawStatus;
   /** STROKE. */

@@ -1,18 +1,20 @@
 // Editing by two strokes: one over a limb, a second where it should go.
 
-import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place } from "../boundary/check.js";
+import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place, vector } from "../boundary/check.js";
 import { build, type Core } from "../boundary/core.js";
 import type { RawScratch, RawSketch, RawStatus } from "../boundary/raw.js";
 import { insideOf, type Shape, shapeFor } from "../shape/shape.js";
 import { Deformation } from "./deformation.js";
-import { type Camera, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
+import { type Camera, type Hold, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
 
-export type { Camera, Mirror, Profile, SketchPose, Stroke };
+export type { Camera, Hold, Mirror, Profile, SketchPose, Stroke };
 
 export interface SketchOptions {
   camera: Camera;
-  /** Drawn along the limb: it is held where the stroke starts and moved where it ends. */
+  /** Drawn along the limb: one end is held, the other moved. */
   reference: Stroke;
+  /** Which end is held: the larger side of the shape, whichever way one draws ("larger", the default; the start where both are about equal), or that where the stroke starts or ends. */
+  hold?: Hold;
   /** Lines across the shape; what each cuts off the region becomes a rigid part. */
   partitions?: readonly Stroke[];
   /** Smooths the parameters over the region (eq. 9): true. */
@@ -89,9 +91,9 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
   constructor(core: Core, shape: Shape, options: SketchOptions) {
     shapeFor(core, shape);
     if (shape.dimension !== 3) new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
-    const { packed, smooth, mirrored } = readSketch(options);
+    const { packed, smooth, mirrored, hold } = readSketch(options);
     const raw = build(core, () => new core.raw.Sketch(), (unbuilt) => insideOf(shape).owned.call((rawShape) =>
-      unbuilt.build(rawShape, smooth, mirrored, core.stage(packed.doubles, packed.integers))));
+      unbuilt.build(rawShape, smooth, mirrored, hold, core.stage(packed.doubles, packed.integers))));
     super(core, shape, raw, "sketch");
   }
 
@@ -101,10 +103,15 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     this.#accept(packed, (raw, scratch) => raw.redraw(scratch));
   }
 
+  /** The end of the reference that is held. */
+  held(): "start" | "end" {
+    return this.owned.call((raw) => (raw.heldAtEnd() ? "end" : "start"));
+  }
+
   // -- Posing. --------------------------------------------------------------------------------------
 
   /**
-   * Bends the reference curve into the target stroke, moved to start where the reference does. While
+   * Bends the reference curve into the target stroke, drawn the same way and moved so that the held ends are one. While
    * it is drawn: `unfinished` goes on by what is left of the reference, so that the limb keeps its
    * length. Errors: invalid-option.
    */
@@ -120,7 +127,7 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     this.owned.call((raw) => raw.unbend());
   }
 
-  /** Twists the limb, right-handed about the stroke's direction, by any angle at its end. Errors: invalid-option, also where the stroke runs beside the shape. */
+  /** Twists the limb, right-handed about the stroke's direction, by any angle between its ends. Errors: invalid-option, also where the stroke runs beside the shape. */
   twist(degrees: number): void {
     const radians = (finite(option("degrees"), degrees, "a finite number of degrees") * Math.PI) / 180;
     this.owned.accept((raw) => raw.twist(radians));
@@ -202,7 +209,7 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     return this.owned.call((raw) => Uint32Array.from(raw.labels()));
   }
 
-  /** Normalised arc length s of every vertex along the reference; 0 in the static part. */
+  /** Normalised arc length s of every vertex along the reference, from its held end; 0 in the static part. */
   parameters(): Float32Array;
   parameters<T extends FloatArray>(out: T): T;
   parameters(out?: FloatArray): FloatArray {
@@ -257,7 +264,25 @@ function option(name: string): Place {
   return new Place("invalid-option", name);
 }
 
-const known = ["camera", "reference", "partitions", "smooth", "mirror", "labels"];
+/**
+ * The limb under a pixel as a reference stroke, from the body to the place under the pixel: for a gesture that begins on a
+ * limb and leaves the shape at once. Errors: invalid-option (beside the shape, or no limb there).
+ */
+export function limbStroke(core: Core, shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> }): [x: number, y: number][] {
+  shapeFor(core, shape);
+  const { camera, pixel } = fields(option("options"), options, ["camera", "pixel"]);
+  const packed = new Packed().camera(option("camera"), camera).pairs(option("pixel"), [vector(option("pixel"), pixel, 2)]);
+  const raw = build(core, () => new core.raw.Sketch(), (finder) => insideOf(shape).owned.call((rawShape) =>
+    finder.findLimb(rawShape, core.stage(packed.doubles, packed.integers))));
+  try {
+    const numbers = raw.foundLimb();
+    return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
+  } finally {
+    raw.delete();
+  }
+}
+
+const known = ["camera", "reference", "hold", "partitions", "smooth", "mirror", "labels"];
 
 function readSketch(value: unknown) {
   const options = fields(option("options"), value, known, "option of a sketch");

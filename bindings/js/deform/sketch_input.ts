@@ -1,6 +1,6 @@
 // What a sketch is made from, as callers write it, and how it is packed for the WASM side.
 
-import { type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
+import { choice, type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
 
 /** The contract's CAMERA. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
 export interface Camera {
@@ -21,6 +21,10 @@ export type Stroke = readonly ArrayLike<number>[] | FloatArray;
 
 /** A function of the normalised arc length s: points [s, F(s)], s from 0 to 1 ascending; linear between, constant beyond. */
 export type Profile = readonly ArrayLike<number>[] | FloatArray;
+
+/** Which end of a reference stroke is held; in the order of the WASM side's `Hold`. */
+export const holds = ["larger", "start", "end"] as const;
+export type Hold = (typeof holds)[number];
 
 /** The plane of the points x with normal . x = offset (0). */
 export interface Mirror {
@@ -107,11 +111,14 @@ export function unpackPose(numbers: ArrayLike<number>): SketchPose {
   return { heading, turns: turns.flat(), length, twist: twist as SketchPose["twist"], scale: scale as SketchPose["scale"] };
 }
 
-/** What a region is chosen by, packed, and the two choices that travel beside. */
-export function readDrawing(place: Place, options: Fields): { packed: Packed; smooth: boolean; mirrored: boolean } {
+/** What a region is chosen by, packed, and the choices that travel beside. */
+export function readDrawing(place: Place, options: Fields): { packed: Packed; smooth: boolean; mirrored: boolean; hold: number } {
   const packed = new Packed().camera(place.at("camera"), options.camera).pairs(place.at("reference"), options.reference);
   const mirrored = options.mirror !== undefined;
   if (mirrored) packed.mirror(place.at("mirror"), options.mirror);
   packed.partitions(place.at("partitions"), options.partitions ?? []);
-  return { packed, smooth: options.smooth === undefined || flag(place.at("smooth"), options.smooth), mirrored };
+  return {
+    packed, mirrored, smooth: options.smooth === undefined || flag(place.at("smooth"), options.smooth),
+    hold: holds.indexOf(choice(place.at("hold"), options.hold ?? "larger", holds)),
+  };
 }

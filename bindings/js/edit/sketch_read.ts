@@ -10,7 +10,7 @@ import { maxCount, readDeformer, readSolve } from "./solve.js";
 
 /** What may differ between keyframes. */
 export const poseKeys = ["bend", "twist", "scale", "turning", "twistSpeed", "morph"] as const;
-const drawingKeys = ["camera", "reference", "partitions", "smooth", "mirror"] as const;
+const drawingKeys = ["camera", "reference", "hold", "partitions", "smooth", "mirror"] as const;
 
 export function readSketchStep(place: Place, value: unknown, extent: Extent, seed: number | undefined): SketchPlan {
   const step = fields(place, value, ["method", ...drawingKeys, ...poseKeys, "region", "refine", "finish"]);

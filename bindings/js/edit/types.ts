@@ -6,7 +6,7 @@ import type { LiveOptions, MethodName, MethodOptions } from "../methods/index.js
 import type { Quality } from "../shape/quality.js";
 import type { Selection } from "../shape/selection.js";
 import type { ShapeReport } from "../shape/shape.js";
-import type { Camera, Mirror, Profile, Refinement, Stroke } from "../deform/sketch.js";
+import type { Camera, Hold, Mirror, Profile, Refinement, Stroke } from "../deform/sketch.js";
 import type { StageMoment } from "./stage.js";
 import type { State } from "../boundary/state.js";
 import type { Transform } from "../shape/transform.js";
@@ -50,6 +50,8 @@ export interface ScriptSketch {
   method: "sketch";
   camera: Camera;
   reference: Stroke;
+  /** "larger"; see `SketchOptions.hold`. */
+  hold?: Hold;
   /** `unfinished`: see `Sketch.bend`. */
   bend?: { target: Stroke; unfinished?: boolean };
   twist?: { degrees: number };

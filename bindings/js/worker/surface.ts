@@ -68,7 +68,7 @@ export const surface = {
     constants: [],
     calls: {
       shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" }, open: { gives: "Edit" },
-      measure: plain, edit: { options: 2 },
+      limbStroke: plain, measure: plain, edit: { options: 2 },
     },
   },
   Shape: {
@@ -89,7 +89,7 @@ export const surface = {
   Sketch: {
     constants: [],
     calls: {
-      redraw: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
+      redraw: plain, held: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
       setSmooth: plain, morph: plain, pose: plain, setPose: plain, refine: plain, unrefine: plain, labels: plain,
       parameters: into, reference: plain, target: plain, restPositions: into, seed: plain, ...deformation,
     },

@@ -16,7 +16,7 @@ namespace pliant {
 namespace {
 
 constexpr double kConcave = 1.0, kConvex = 0.2;  // eta
-constexpr double kLeastCost = 0.01;             // of the length
+constexpr double kLeastCost = 0.01;              // of the length
 
 /// An edge of a triangle; equal edges stand together when sorted.
 struct Side {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "pliant/geometry/adjacency.h"
 #include "pliant/geometry/edge_distance.h"
 #include "pliant/sketch/end_cut.h"
@@ -15,7 +17,9 @@
 namespace pliant {
 namespace {
 
-constexpr double kLeastGap = 0.4;  // of the stroke, between the static part and the end's
+constexpr double kLeastGap = 0.4;      // of the stroke, between the static part and the end's
+constexpr double kLeastReach = 0.25;   // of the stroke, that what moves has to reach along it
+constexpr double kClearlyMore = 0.05;  // of the area of the component
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kUntouched = -1;
 
@@ -63,6 +67,44 @@ class RegionFinder {
                       "partitions[" + std::to_string(i) + "] cuts nothing off the region; expected a line across it");
       }
     }
+    return checked_region();
+  }
+
+  bool more_beyond_end() {
+    label_component();
+    const std::vector<Index> part = with_label(labels_, kRegionLabel);
+    const EndCutter cutter(shape_, stroke_, part);
+    const EndCut all{0.0, std::vector<bool>(part.size(), true)};
+    const double more = area_off(cutter.end(), part) - area_off(cutter.start(), part);
+    return more > kClearlyMore * area_off(all, part);
+  }
+
+ private:
+  double area_off(const EndCut& cut, const std::vector<Index>& part) const {
+    double area = 0.0;
+    for (std::size_t i = 0; i < cut.off.size(); ++i) {
+      if (!cut.off[i]) continue;
+      const auto& corners = shape_.triangles.col(part[i]);
+      const Eigen::Vector3d a = shape_.view.col(corners[0]);
+      area += 0.5 * (shape_.view.col(corners[1]) - a).cross(shape_.view.col(corners[2]) - a).norm();
+    }
+    return area;
+  }
+
+  /// How far along the stroke what moves reaches, or enough: the nearest places of all points take
+  /// their time.
+  double reach_of(const Region& region) const {
+    if (region.rigid_parts > 0) return 1.0;
+    double reach = 0.0;
+    for (Index p = 0; p < shape_.view.cols() && reach < start_ + kLeastReach; ++p) {
+      if (region.of_point[p] == kRegionLabel) {
+        reach = std::max(reach, stroke_.curve.nearest(shape_.view.col(p).head<2>()));
+      }
+    }
+    return reach;
+  }
+
+  Result<Region> checked_region() {
     Region region;
     region.start = start_;
     region.of_triangle = std::move(labels_);
@@ -72,10 +114,15 @@ class RegionFinder {
                     "reference covers no vertex of the shape; expected a stroke over or along it");
     }
     assert(!torn_edge(shape_.triangles, region.of_point));
+    const double reach = reach_of(region);
+    if (reach < start_ + kLeastReach) {
+      return Status(ErrorCode::invalid_option, "reference leaves the shape after " +
+                                                   std::to_string(std::lround(100.0 * reach)) +
+                                                   " % of its length; expected a stroke along a limb");
+    }
     return region;
   }
 
- private:
   void label_component() {
     const std::vector<Index> component = connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
     const Index mine = component_of_stroke(component);
@@ -251,6 +298,25 @@ class RegionFinder {
 };
 
 }  // namespace
+
+bool more_beyond_end(const SeenShape& shape, const LaidStroke& stroke) {
+  return RegionFinder(shape, stroke).more_beyond_end();
+}
+
+bool runs_to_static(const SeenShape& shape, const PlaneCurve& curve, const Region& region) {
+  double place[2] = {0.0, 0.0};  // sums over points of the static part beside the region, and of it
+  Index count[2] = {0, 0};
+  for (Index t = 0; t < shape.triangles.cols(); ++t) {
+    if (region.of_triangle[t] != kRegionLabel) continue;
+    for (const Index p : shape.triangles.col(t)) {
+      const Index label = region.of_point[p];
+      if (label > kRegionLabel) continue;
+      place[label] += curve.nearest(shape.view.col(p).head<2>());
+      ++count[label];
+    }
+  }
+  return count[0] > 0 && count[1] > 0 && place[0] * count[1] > place[1] * count[0];
+}
 
 Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions) {
   return RegionFinder(shape, stroke).find(partitions);

@@ -80,6 +80,20 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
   return of_point;
 }
 
+/// Filtered pixels, from the held end on.
+Polyline from_held_end(const Polyline& drawn, bool held_at_end) {
+  return held_at_end ? Polyline(drawn.rowwise().reverse()) : drawn;
+}
+
+/// Whether a filtered stroke, as drawn, is held at its end. `given`: the region, if it is not to be
+/// chosen.
+Result<bool> find_held_end(const SeenShape& seen, const Polyline& drawn, Hold hold, const Region* given) {
+  if (hold != Hold::larger) return hold == Hold::end;
+  const Result<LaidStroke> laid = lay_stroke(seen, drawn);
+  if (!laid.ok()) return laid.status();
+  return given ? runs_to_static(seen, laid->curve, *given) : more_beyond_end(seen, *laid);
+}
+
 /// A filtered stroke on a shape seen through a camera, with a region given.
 Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region) {
   Result<LaidStroke> laid = lay_stroke(seen, pixels);
@@ -192,6 +206,7 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
   impl->shape = shape;
   impl->mirror = options.mirror;
   impl->smooth = options.smooth;
+  impl->hold = options.hold;
   impl->reference_pixels = filtered(reference, nodes_for(reference));
   Region given;
   if (!options.labels.empty()) {
@@ -199,9 +214,13 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
     if (!labels.ok()) return labels.status();
     given = region_from_labels(shape->triangles(), *labels);
   }
+  const Result<bool> held_at_end = find_held_end(seen_through(camera, *shape), impl->reference_pixels, options.hold,
+                                                 options.labels.empty() ? nullptr : &given);
+  if (!held_at_end.ok()) return held_at_end.status();
+  impl->held_at_end = *held_at_end;
+  const Polyline pixels = from_held_end(impl->reference_pixels, *held_at_end);
   for (const bool mirrored : {false, true}) {
     if (mirrored && !options.mirror) break;
-    const Polyline& pixels = impl->reference_pixels;
     SeenShape seen = seen_through(mirrored ? camera.mirrored(*options.mirror) : camera, *shape);
     Result<Limb> limb = options.labels.empty()
                             ? limb_under(std::move(seen), pixels, options.partitions, mirrored, impl->start)
@@ -222,7 +241,11 @@ Result<std::unique_ptr<Sketch>> Sketch::create(std::shared_ptr<const Shape> shap
 
 Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
   if (Status status = check_stroke(reference, "reference"); !status.ok()) return status;
-  const Polyline pixels = filtered(reference, nodes_for(reference));
+  const Polyline drawn = filtered(reference, nodes_for(reference));
+  const Result<bool> held_at_end =
+      find_held_end(seen_through(camera, *impl_->shape), drawn, impl_->hold, &impl_->limbs.front().region());
+  if (!held_at_end.ok()) return held_at_end.status();
+  const Polyline pixels = from_held_end(drawn, *held_at_end);
   std::vector<Limb> limbs;
   for (std::size_t k = 0; k < impl_->limbs.size(); ++k) {
     Result<Limb> limb = limb_over(seen_through(k == 0 ? camera : camera.mirrored(*impl_->mirror), *impl_->shape),
@@ -232,12 +255,15 @@ Status Sketch::redraw(const Camera& camera, const Stroke& reference) {
   }
   unrefine();
   impl_->limbs = std::move(limbs);
-  impl_->reference_pixels = pixels;
+  impl_->reference_pixels = drawn;
+  impl_->held_at_end = *held_at_end;
   impl_->start = 0.0;
   for (Limb& limb : impl_->limbs) limb.set_smooth(impl_->smooth);
   reset();
   return {};
 }
+
+bool Sketch::held_at_end() const { return impl_->held_at_end; }
 
 // -- Posing.
 
@@ -245,7 +271,8 @@ Status Sketch::bend(const Stroke& target, bool unfinished) {
   if (Status status = check_stroke(target, "target"); !status.ok()) return status;
   const PlaneCurve& reference = impl_->curve();
   const Stroke whole = unfinished ? continued(target, impl_->reference_pixels) : target;
-  Polyline nodes = without_start(filtered(whole, reference.size()), impl_->start);
+  const Polyline pixels = from_held_end(filtered(whole, reference.size()), impl_->held_at_end);
+  Polyline nodes = without_start(pixels, impl_->start);
   for (auto node : nodes.colwise()) {
     node = impl_->limbs.front().camera().at_depth(node, impl_->limbs.front().depth());
   }

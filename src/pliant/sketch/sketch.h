@@ -13,6 +13,7 @@
 #include "pliant/sketch/camera.h"
 #include "pliant/sketch/pose.h"
 #include "pliant/sketch/refinement.h"
+#include "pliant/sketch/region.h"
 #include "pliant/sketch/stroke.h"
 #include "pliant/solve/deformation.h"
 
@@ -22,7 +23,10 @@ struct SketchOptions {
   /// Lines across the shape; what each cuts off the region becomes a rigid part (section 4.2.1).
   /// Only the first and the last sample of each count.
   std::vector<Stroke> partitions;
-  bool smooth = true;           ///< eq. 9 on the parameters
+  bool smooth = true;  ///< eq. 9 on the parameters
+  /// Which end of the reference stroke is held; the other moves. With labels the larger side is the
+  /// static one.
+  Hold hold = Hold::larger;
   std::optional<Plane> mirror;  ///< the same gesture on the limb mirrored in this plane, too
   /// A label a vertex of the input, as `Sketch::labels` gives them: the region is taken over, not
   /// chosen. Empty: it is chosen. Not together with partitions or mirror.
@@ -43,10 +47,11 @@ struct SketchSeed {
 class Sketch final : public Deformation {
  public:
   /// Filters the reference stroke, lays it on the plane through the first hit, finds the region and
-  /// skins it. The pose is rest. Where the stroke starts is held, where it ends is moved.
+  /// skins it. The pose is rest. One end of the stroke is held, the other is moved
+  /// (`SketchOptions::hold`); s runs from the held end (0) to the other (1).
   /// Errors: invalid_shape (no triangles); invalid_option (a stroke that is too short or not
-  /// finite, shape behind the camera, a stroke that covers nothing, a partition that cuts nothing
-  /// off, mirrored regions that overlap, labels that do not fit).
+  /// finite, shape behind the camera, a stroke that covers nothing or leaves the shape at once, a
+  /// partition that cuts nothing off, mirrored regions that overlap, labels that do not fit).
   static Result<std::unique_ptr<Sketch>> create(std::shared_ptr<const Shape> shape, const Camera& camera,
                                                 const Stroke& reference, const SketchOptions& options = {});
   ~Sketch() override;
@@ -55,14 +60,18 @@ class Sketch final : public Deformation {
   /// Errors: those of create; nothing changes then.
   Status redraw(const Camera& camera, const Stroke& reference);
 
+  /// Whether the reference is held at its end, not at its start.
+  bool held_at_end() const;
+
   // -- Posing: bend, twist and scale add up; each call replaces what it set before.
-  /// The target stroke (eq. 1-6), moved so that it starts where the reference does. May be called
+  /// The target stroke (eq. 1-6), drawn as the reference was, and moved so that the held ends of both
+  /// are one. May be called
   /// with each sample while it is drawn: `unfinished` then continues it by what is left of the
   /// reference, so that the limb keeps its length. Errors: invalid_option.
   Status bend(const Stroke& target, bool unfinished = false);
   /// Takes the bend back; twist and scale stay.
   void unbend();
-  /// Right-handed about the stroke's direction, radians at its end, any size (eq. 7).
+  /// Right-handed about the stroke's direction, radians between its ends, any size (eq. 7).
   /// Errors: invalid_option (not finite; a node of the reference that meets the shape less than
   /// twice).
   Status twist(double radians);

@@ -10,8 +10,10 @@ struct SketchImpl {
   std::shared_ptr<const Shape> shape;
   std::optional<Plane> mirror;
   bool smooth = true;
+  Hold hold = Hold::larger;
+  bool held_at_end = false;
   Polyline reference_pixels;  ///< filtered, as drawn
-  double start = 0.0;         ///< share of it, and of every target, that lies before the region
+  double start = 0.0;         ///< share of it, from the held end, and of targets, before the region
   std::vector<Limb> limbs;    ///< one, or a second one that is its reflection
 
   /// As drawn or set: without the turning control.
