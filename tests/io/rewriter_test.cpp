@@ -142,6 +142,19 @@ TEST_CASE("off: normals go and the N of the header with them") {
         "# at the end");
 }
 
+TEST_CASE("off: what stands close together without normals can still be read") {
+  const auto written = [](const std::string& file) {
+    const std::string out = rewritten(FileFormat::off, file, 1000);
+    CHECK(test::read(FileFormat::off, out).mesh().vertex_count() == 1);
+    CHECK(test::string_of(*test::read(FileFormat::off, out).write(FileFormat::off, Numbers{0.75, 1.25, 1.75})) == out);
+    return out;
+  };
+  CHECK(written("NOFF1 0\n1 2 3 0 0 1\n") == "OFF 1 0\n0.75 1.25 1.75\n");
+  CHECK(written("STCNOFF1 0 0 # one\n1 2 3 0 0 1 9 9 9 0 0\n") == "STCOFF 1 0 0 # one\n0.75 1.25 1.75 9 9 9 0 0\n");
+  CHECK(written("OFF1 0\n1 2 3 #one\n") == "OFF 1 0\n0.75 1.25 1.75 #one\n");
+  CHECK(written("NOFF 1 0\n1 2 3 0 0 1#one\n") == "OFF 1 0\n0.75 1.25 1.75 #one\n");
+}
+
 TEST_CASE("stl: normals are those of the new corners") {
   CHECK(rewritten(FileFormat::stl, test::samples()[5].file, 4096) ==
         "solid two facets\n"

@@ -90,7 +90,11 @@ Status OffScanner::scan_header(std::string_view line, Draft& draft) {
   }
   const std::size_t start = at - word.size();
   draft.keep(line.substr(0, start + normal_letter));
-  draft.keep(line.substr(start + normal_letter + (has_normals_ ? 1 : 0)));
+  draft.keep(line.substr(start + length - 3, 3));
+  if (word.size() > length) {
+    draft.keep(" ");  // few readers take counts that begin within the word
+  }
+  draft.keep(line.substr(start + length));
   const std::string_view rest = without_comment(line.substr(start + length));
   std::size_t rest_at = 0;
   expected_ = Expected::counts;
@@ -123,6 +127,10 @@ Status OffScanner::scan_vertex(std::string_view line, Draft& draft) {
     if (next_word(words, at).empty()) {
       return failure({"expected 3 numbers of a normal"});
     }
+  }
+  // A comment may follow the normal at once; a number it would belong to.
+  if (has_normals_ && at < line.size() && line[at] == '#') {
+    draft.keep(" ");
   }
   draft.keep(line.substr(at));
   if (vertices_ == vertex_count_) {
