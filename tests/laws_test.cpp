@@ -268,6 +268,14 @@ TEST_CASE("a saved state restores the deformation, also into a fresh deformer") 
     test::settle(*other);
     CHECK(distance(other->positions(), bent) < 1e-4 * s.diagonal);
     CHECK(deformer->restore(State{}).code() == ErrorCode::invalid_option);
+    // Handles that are cut short: an error, and nothing has changed.
+    State cut = state;
+    for (StateTable& table : cut.tables) {
+      if (table.name == "handles/targets") table.data.pop_back();
+    }
+    deformer->reset();
+    CHECK(deformer->restore(cut).code() == ErrorCode::invalid_option);
+    CHECK(deformer->positions() == deformer->shape().scatter(deformer->shape().points()));
   }
 }
 

@@ -1,12 +1,15 @@
 // THE interface: every method is a Deformer. Bindings, demo, command and benches know nothing else.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "pliant/solve/constraints.h"
 #include "pliant/solve/deformation.h"
-#include "pliant/solve/handle.h"
+#include "pliant/solve/prediction.h"
 
 namespace pliant {
 
@@ -40,9 +43,12 @@ struct Counters {
 /// A shape, constraints on it, and a method that finds the deformation. `reset` keeps handles and
 /// the fixed region, targets return to rest; `restore` brings targets back, too, of handles with
 /// the same vertices.
+///
+/// A method implements what stands under `protected` and the results; it never looks after handles,
+/// targets, or what has changed since the last step.
 class Deformer : public Deformation {
  public:
-  using Deformation::Deformation;
+  explicit Deformer(std::shared_ptr<const Shape> shape) : Deformation(shape), constraints_(std::move(shape)) {}
 
   // -- On grab: the pattern of the system changes, the next step factorises.
   /// Replaces the fixed region (empty: none). Errors: invalid_handle (id out of range, duplicate,
@@ -72,35 +78,47 @@ class Deformer : public Deformation {
   virtual Points point_positions() const = 0;
   virtual Points point_normals() const = 0;
   void reset() final;
+  State save() const final;
+  Status restore(const State& state) final;
 
-  const std::vector<Index>& fixed_points() const { return fixed_points_; }
-  const std::vector<Handle>& handles() const { return handles_; }
+  const std::vector<Index>& fixed_points() const { return constraints_.fixed_points(); }
+  const std::vector<Handle>& handles() const { return constraints_.handles(); }
 
  protected:
-  /// The set of constrained points changed.
-  virtual void constraints_changed() = 0;
-  /// Only targets changed.
-  virtual void targets_changed() = 0;
-  virtual Result<StepReport> do_step(double tolerance) = 0;
-  virtual void do_reset() = 0;
+  const Constraints& constraints() const { return constraints_; }
 
-  void save_handles(State& state) const;
-  Status restore_handles(const State& state);
+  // What a step calls, as little as has changed. After an error nothing has.
+  /// Other points are held: the pattern of the system is another. Analyses and factorises.
+  virtual Status set_up() = 0;
+  /// Other values in the same pattern.
+  virtual Status refactorize() { return set_up(); }
+  /// Other targets, also after `set_up`. What is to be started anew from them (prediction.h).
+  virtual Start& take_targets() = 0;
+  /// One iteration; `iteration` of the report is filled in by the caller.
+  virtual Result<StepReport> iterate(double tolerance) = 0;
+
+  /// Back to rest. Targets are there already.
+  virtual void do_reset() = 0;
+  /// All but the handles.
+  virtual State do_save() const = 0;
+  virtual Status do_restore(const State& state) = 0;
+
+  /// For options of a living deformer: the next step calls `set_up` or `refactorize`.
+  void pattern_changed() { stale_.pattern = true; }
+  void matrix_changed() { stale_.matrix = true; }
+  /// Whether a step has taken all that was set since.
+  bool up_to_date() const { return !stale_.pattern && !stale_.matrix && !stale_.targets; }
 
  private:
-  Result<std::vector<Index>> checked_points(std::span<const Index> vertices, const char* argument,
-                                            std::vector<Index>* kept) const;
-  Handle* find(HandleId id);
+  Status take_changes();
 
-  std::vector<Index> fixed_points_;
-  std::vector<Handle> handles_;
-  /// How the columns of a caller's target list belong to the points of a handle.
-  struct Columns {
-    Index given;              ///< length of the caller's list
-    std::vector<Index> kept;  ///< column of each point: copies at one position stand for one point
+  Constraints constraints_;
+  /// What has changed since a step took it.
+  struct Stale {
+    bool pattern = true, matrix = false, targets = true;
   };
-  std::vector<Columns> columns_;  ///< beside handles_
-  HandleId next_id_ = 1;
+  Stale stale_;
+  int iteration_ = 0;
 };
 
 }  // namespace pliant

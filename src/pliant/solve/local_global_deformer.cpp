@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -18,8 +16,6 @@ namespace {
 
 /// Turns of handles below this (radians) need no prediction.
 constexpr double kSmallTurn = 0.05;
-/// Targets that a rigid motion meets to this part of the diagonal are met by a rigid motion.
-constexpr double kRigid = 1e-9;
 /// Energies below this, for weights of 1 and over the squared diagonal, are rounding.
 constexpr double kNoise = 1e-20;
 
@@ -73,168 +69,80 @@ class WithSoftHandles final : public LocalModel {
 
 }  // namespace
 
-struct LocalGlobalDeformer::Core {
+/// The deformation, and how it is started anew.
+struct LocalGlobalDeformer::Core final : Start {
+  explicit Core(const LocalGlobalDeformer& deformer) : self(deformer), x(deformer.shape().points()) {}
+
+  const LocalGlobalDeformer& self;
   Points x;
+  Points before;  ///< the same before held points went to their targets
   LocalGlobal solver;
   std::optional<double> weight;  ///< of soft handles
-  std::vector<Index> component;  ///< of each point
-
-  bool pattern_changed = true;
-  bool matrix_changed = false;
-  bool targets_changed = true;
-  int iteration = 0;
+  std::vector<Index> parts;      ///< of the points
+  std::vector<bool> fixed_part;
+  std::vector<Index> moved;  ///< Constraints::moved_points
   /// E where the model was evaluated last at x and nothing has changed since.
   std::optional<double> energy_at_x;
-  /// The motion a handle had when the targets were last taken; empty: moved by targets.
-  std::map<HandleId, std::optional<Motion>> applied;
 
-  WithSoftHandles energy(const LocalGlobalDeformer& self) const {
-    return {self.model(), weight.value_or(0.0), self.handles()};
-  }
-  Points constrained(const LocalGlobalDeformer& self) const;
-  Status set_up(const LocalGlobalDeformer& self);
-  void take_targets(const LocalGlobalDeformer& self);
-  bool follow_rigidly(const LocalGlobalDeformer& self, Points& start) const;
-  std::pair<Points, bool> turns(const LocalGlobalDeformer& self);
-  void try_start(LocalModel& model, Points start, bool always);
+  WithSoftHandles energy() const { return {self.model(), weight.value_or(0.0), self.handles()}; }
+  Points constrained(Points points) const;
+  bool keep_if_lower(Points start, bool in_any_case);
+
+  double small_turn() const override { return kSmallTurn; }
+  Eigen::Vector3d standing(Index i) const override { return before.col(moved[i]); }
+  Index part_count() const override { return static_cast<Index>(fixed_part.size()); }
+  bool floats(Index part) const override { return !fixed_part[part]; }
+  Index part_of(Index i) const override { return parts[moved[i]]; }
+  void try_rigid(const std::vector<PartMotion>& motions) override;
+  void try_turned(const std::vector<Eigen::Vector3d>& turns, bool in_any_case) override;
 };
 
-/// The present points, held ones where they should be.
-Points LocalGlobalDeformer::Core::constrained(const LocalGlobalDeformer& self) const {
-  Points points = x;
+/// Points with held ones where they should be.
+Points LocalGlobalDeformer::Core::constrained(Points points) const {
   for (Index p : self.fixed_points()) points.col(p) = self.shape().points().col(p);
   if (weight) return points;
   for (const Handle& handle : self.handles()) points(Eigen::all, handle.points) = handle.targets;
   return points;
 }
 
-Status LocalGlobalDeformer::Core::set_up(const LocalGlobalDeformer& self) {
-  const BlockMatrix matrix = energy(self).matrix();
-  component = parts_of(matrix);
-  // A soft handle, too, keeps its part of the shape from floating.
-  std::vector<bool> held(matrix.nodes, false);
-  for (Index p : self.fixed_points()) held[p] = true;
-  for (const Handle& handle : self.handles()) {
-    for (Index p : handle.points) held[p] = true;
-  }
-  self.model().set_anchored(hold_one_a_part(component, held));
-  for (const Handle& handle : self.handles()) {
-    for (Index p : handle.points) held[p] = !weight;
-  }
-  if (Status s = solver.set_up(matrix, std::move(held)); !s.ok()) return s;
-  pattern_changed = matrix_changed = false;
-  targets_changed = true;
-  iteration = 0;
-  return {};
-}
-
-/// Moves every part that nothing fixes by the rigid motion that fits its handles best. True where
-/// that meets all targets.
-bool LocalGlobalDeformer::Core::follow_rigidly(const LocalGlobalDeformer& self, Points& start) const {
-  std::map<Index, std::vector<std::pair<Index, Eigen::Vector3d>>> wanted;  // of each component
-  for (const Handle& handle : self.handles()) {
-    for (std::size_t i = 0; i < handle.points.size(); ++i) {
-      wanted[component[handle.points[i]]].emplace_back(handle.points[i], handle.targets.col(static_cast<Index>(i)));
-    }
-  }
-  for (Index p : self.fixed_points()) wanted.erase(component[p]);
-  bool met = self.fixed_points().empty();
-  for (const auto& [part, points] : wanted) {
-    RigidFit fit;
-    for (const auto& [p, target] : points) fit.add(x.col(p), target);
-    const RigidMotion motion = fit.motion();
-    for (const auto& [p, target] : points) {
-      met =
-          met && (motion.rotation * x.col(p) + motion.translation - target).norm() <= kRigid * self.shape().diagonal();
-    }
-    for (Index p = 0; p < start.cols(); ++p) {
-      if (component[p] == part) start.col(p) = motion.rotation * x.col(p) + motion.translation;
-    }
-  }
-  return met;
-}
-
-/// How far the handles turn from here, 3 x p rotation vectors at their points; and whether any was
-/// told to turn by more than half a turn, which the points alone cannot show.
-std::pair<Points, bool> LocalGlobalDeformer::Core::turns(const LocalGlobalDeformer& self) {
-  bool beyond_half_turn = false;
-  std::map<HandleId, Eigen::Vector3d> told;
-  for (const Handle& handle : self.handles()) {
-    const auto before = applied.try_emplace(handle.id, Motion{}).first;
-    told[handle.id] =
-        handle.motion ? turn_between(before->second, *handle.motion) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    beyond_half_turn = beyond_half_turn || told[handle.id].norm() > std::numbers::pi;
-    before->second = handle.motion;
-    if (!handle.motion && handle.targets == handle.rest) before->second = Motion{};
-  }
-  Points turns = Points::Zero(3, x.cols());
-  for (const Handle& handle : self.handles()) {
-    // Where no turn is told beyond what the points show, the points know better: soft ones may lag.
-    RigidFit fit;
-    for (std::size_t i = 0; i < handle.points.size(); ++i)
-      fit.add(x.col(handle.points[i]), handle.targets.col(static_cast<Index>(i)));
-    const Eigen::Vector3d turn = beyond_half_turn ? told[handle.id] : rotation_vector_of(fit.motion().rotation);
-    for (Index p : handle.points) turns.col(p) = turn;
-  }
-  return {turns, beyond_half_turn};
-}
-
 /// Stands at `start` from now on if its energy is lower.
-void LocalGlobalDeformer::Core::try_start(LocalModel& model, Points start, bool always) {
+bool LocalGlobalDeformer::Core::keep_if_lower(Points start, bool in_any_case) {
   Points unused;
-  if (!always && !(model.evaluate(start, unused) < model.evaluate(x, unused))) return;
+  WithSoftHandles model = energy();
+  if (!in_any_case && !(model.evaluate(start, unused) < model.evaluate(x, unused))) return false;
   x = std::move(start);
   solver.forget();
+  return true;
 }
 
-void LocalGlobalDeformer::Core::take_targets(const LocalGlobalDeformer& self) {
-  targets_changed = false;
-  solver.restart();
-  const Points before = x;
-  auto [rotations, beyond_half_turn] = turns(self);
+void LocalGlobalDeformer::Core::try_rigid(const std::vector<PartMotion>& motions) {
   Points rigid = before;
-  const bool met = follow_rigidly(self, rigid);
-  x = constrained(self);
-  WithSoftHandles model = energy(self);
-  if (!beyond_half_turn && rigid != before) {
-    x.swap(rigid);
-    const Points start = constrained(self);
-    x.swap(rigid);
-    try_start(model, start, false);
-    if (met) return;
+  for (const auto& [part, motion] : motions) {
+    for (Index p = 0; p < rigid.cols(); ++p) {
+      if (parts[p] == part) rigid.col(p) = motion.rotation * rigid.col(p) + motion.translation;
+    }
   }
-  if (rotations.colwise().norm().maxCoeff() < kSmallTurn) return;
-  // The turns of the handles, spread as smoothly as the matrix can, and the points after them.
+  if (keep_if_lower(constrained(rigid), false)) before = std::move(rigid);
+}
+
+void LocalGlobalDeformer::Core::try_turned(const std::vector<Eigen::Vector3d>& turns, bool in_any_case) {
+  Points rotations = Points::Zero(3, x.cols());
+  for (std::size_t h = 0; h < turns.size(); ++h) {
+    for (Index p : self.handles()[h].points) rotations.col(p) = turns[h];
+  }
   solver.extend(rotations);
   Rotations spread(9, x.cols());
-  for (Index p = 0; p < x.cols(); ++p) {
-    spread.col(p) = rotation_of(rotations.col(p)).reshaped();
-  }
-  Points start = constrained(self), half_gradient;
-  model.turned_gradient(before, spread, start, half_gradient);
+  for (Index p = 0; p < x.cols(); ++p) spread.col(p) = rotation_of(rotations.col(p)).reshaped();
+  Points start = x, half_gradient;
+  energy().turned_gradient(before, spread, start, half_gradient);
   solver.relax(half_gradient, start);
-  try_start(model, std::move(start), beyond_half_turn);
+  keep_if_lower(std::move(start), in_any_case);
 }
 
 LocalGlobalDeformer::LocalGlobalDeformer(std::shared_ptr<const Shape> shape)
-    : Deformer(std::move(shape)), core_(std::make_unique<Core>()) {
-  core_->x = this->shape().points();
-}
+    : Deformer(std::move(shape)), core_(std::make_unique<Core>(*this)) {}
 LocalGlobalDeformer::~LocalGlobalDeformer() = default;
 
-void LocalGlobalDeformer::constraints_changed() { pattern_changed(); }
-void LocalGlobalDeformer::targets_changed() {
-  core_->targets_changed = true;
-  core_->energy_at_x.reset();
-}
-void LocalGlobalDeformer::pattern_changed() {
-  core_->pattern_changed = true;
-  core_->energy_at_x.reset();
-}
-void LocalGlobalDeformer::matrix_changed() {
-  core_->matrix_changed = true;
-  core_->energy_at_x.reset();
-}
 void LocalGlobalDeformer::energy_changed() {
   core_->energy_at_x.reset();
   core_->solver.restart();
@@ -247,41 +155,53 @@ void LocalGlobalDeformer::set_constraint_weight(std::optional<double> weight) {
   core_->weight = weight;
 }
 
-void LocalGlobalDeformer::do_reset() {
-  core_->x = shape().points();
-  core_->applied.clear();
-  core_->targets_changed = true;
-  core_->iteration = 0;
-  energy_changed();
+Status LocalGlobalDeformer::set_up() {
+  Core& core = *core_;
+  const BlockMatrix matrix = core.energy().matrix();
+  core.parts = parts_of(matrix);
+  core.moved = constraints().moved_points();
+  core.fixed_part.assign(core.parts.empty() ? 0 : *std::max_element(core.parts.begin(), core.parts.end()) + 1, false);
+  for (Index p : fixed_points()) core.fixed_part[core.parts[p]] = true;
+  // A soft handle, too, keeps its part of the shape from floating.
+  std::vector<bool> held = constraints().held();
+  model().set_anchored(hold_one_a_part(core.parts, held));
+  for (Index p : core.moved) held[p] = !core.weight;
+  return core.solver.set_up(matrix, std::move(held));
 }
 
-Result<StepReport> LocalGlobalDeformer::do_step(double tolerance) {
+Status LocalGlobalDeformer::refactorize() { return core_->solver.refactorize(core_->energy().matrix()); }
+
+Start& LocalGlobalDeformer::take_targets() {
+  core_->solver.restart();
+  core_->before = core_->x;
+  core_->x = core_->constrained(core_->x);
+  return *core_;
+}
+
+Result<StepReport> LocalGlobalDeformer::iterate(double tolerance) {
   Core& core = *core_;
-  core.energy_at_x.reset();
-  if (core.pattern_changed) {
-    if (Status s = core.set_up(*this); !s.ok()) return s;
-  } else if (core.matrix_changed) {
-    if (Status s = core.solver.refactorize(core.energy(*this).matrix()); !s.ok()) return s;
-    core.matrix_changed = false;
-  }
-  if (core.targets_changed) core.take_targets(*this);
-  WithSoftHandles model = core.energy(*this);
+  WithSoftHandles model = core.energy();
   const double diagonal = shape().diagonal();
   const auto outcome =
       core.solver.step(model, core.x, tolerance, diagonal, kNoise * model.stiffness() * diagonal * diagonal);
-  if (outcome.accepted) ++core.iteration;
+  core.energy_at_x.reset();
   if (outcome.accepted && !core.weight) core.energy_at_x = core.solver.energy();
-  return StepReport{core.iteration, core.solver.energy(), outcome.accepted, outcome.converged};
+  return StepReport{0, core.solver.energy(), outcome.accepted, outcome.converged};
+}
+
+void LocalGlobalDeformer::do_reset() {
+  core_->x = shape().points();
+  energy_changed();
 }
 
 LocalGlobalDeformer::Terms LocalGlobalDeformer::evaluate_terms() const {
   Terms terms;
-  if (core_->energy_at_x) {
+  if (core_->energy_at_x && up_to_date()) {
     terms.model = *core_->energy_at_x;
     return terms;
   }
   Points unused;
-  const Points x = core_->constrained(*this);
+  const Points x = core_->constrained(core_->x);
   terms.model = model().evaluate(x, unused);
   if (!core_->weight) return terms;
   for (const Handle& handle : handles()) {
@@ -302,10 +222,9 @@ Points LocalGlobalDeformer::point_normals() const { return pliant::point_normals
 void LocalGlobalDeformer::save_result(State& state) const {
   const Points result = positions();
   state.add("result", 3, false).data.assign(result.data(), result.data() + result.size());
-  save_handles(state);
 }
 
-Status LocalGlobalDeformer::restore(const State& state) {
+Status LocalGlobalDeformer::do_restore(const State& state) {
   const StateTable* result = state.find("result");
   const std::size_t expected = 3 * static_cast<std::size_t>(shape().input_size());
   if (result == nullptr || result->data.size() != expected) {
@@ -317,11 +236,8 @@ Status LocalGlobalDeformer::restore(const State& state) {
   }
   const Eigen::Map<const Points> points(result->data.data(), 3, shape().input_size());
   core_->x = points(Eigen::all, shape().vertex_of_point());
-  core_->iteration = 0;
-  core_->applied.clear();
-  for (const Handle& handle : handles()) core_->applied[handle.id] = std::nullopt;
   energy_changed();
-  return restore_handles(state);
+  return {};
 }
 
 }  // namespace pliant

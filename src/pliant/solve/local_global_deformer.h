@@ -25,8 +25,6 @@ class LocalGlobalDeformer : public Deformer {
   Counters counters() const override;
   Points point_positions() const override;
   Points point_normals() const override;
-  /// Needs `result`; what is local follows from it.
-  Status restore(const State& state) override;
 
  protected:
   explicit LocalGlobalDeformer(std::shared_ptr<const Shape> shape);
@@ -36,10 +34,8 @@ class LocalGlobalDeformer : public Deformer {
 
   /// Exact handles (empty) or soft ones with this weight.
   void set_constraint_weight(std::optional<double> weight);
-  /// After a change of the model; the next step pays for it.
-  void energy_changed();   ///< the matrix is the same: nothing
-  void matrix_changed();   ///< same pattern: one factorisation
-  void pattern_changed();  ///< one analysis and one factorisation
+  /// After a change of the model that leaves the matrix as it is.
+  void energy_changed();
 
   /// Evaluates the model where the deformation stands, handles at their targets: E and, with soft
   /// handles, the unweighted sum of squared distances.
@@ -48,13 +44,16 @@ class LocalGlobalDeformer : public Deformer {
     double constraint = 0.0;
   };
   Terms evaluate_terms() const;
-  /// `result`, one row an input vertex, and the handles.
+  /// `result`, one row an input vertex.
   void save_result(State& state) const;
 
-  void constraints_changed() override;
-  void targets_changed() override;
-  Result<StepReport> do_step(double tolerance) override;
+  Status set_up() override;
+  Status refactorize() override;
+  Start& take_targets() override;
+  Result<StepReport> iterate(double tolerance) override;
   void do_reset() override;
+  /// Needs `result`; what is local follows from it.
+  Status do_restore(const State& state) override;
 
  private:
   struct Core;

@@ -59,7 +59,7 @@ Energy Arap::energy() const {
   return energy;
 }
 
-State Arap::save() const {
+State Arap::do_save() const {
   const arap::ArapModel& model = *impl_->model;
   State state;
   StateTable i{"edges/i", 1, true, {}}, j{"edges/j", 1, true, {}},

@@ -28,7 +28,7 @@ class Arap final : public LocalGlobalDeformer {
   Energy energy() const override;
   /// edges/i, edges/j, edges/weight (the weight of the spokes; with rims the sum of both half
   /// cotangents), rotations, result; handles.
-  State save() const override;
+  State do_save() const override;
 
  private:
   LocalModel& model() const override;

@@ -87,7 +87,7 @@ Energy EdgeMaterial::energy() const {
            {"constraint", 0.0, 1.0}}};  // E is taken with handles at their targets
 }
 
-State EdgeMaterial::save() const {
+State EdgeMaterial::do_save() const {
   const MaterialWeights& w = impl_->model.weights();
   const std::vector<Index>& vertex = shape().vertex_of_point();
   State state;
@@ -131,7 +131,7 @@ State EdgeMaterial::save() const {
   return state;
 }
 
-Status EdgeMaterial::restore(const State& state) {
+Status EdgeMaterial::do_restore(const State& state) {
   const StateTable* edges = state.find("folded/edge");
   const StateTable* normals = state.find("folded/normal");
   const std::vector<double> none;
@@ -146,7 +146,7 @@ Status EdgeMaterial::restore(const State& state) {
     return {ErrorCode::invalid_option, "folded of the state holds edge " + std::to_string(edge) + "; expected 0 to " +
                                            std::to_string(count - 1.0)};
   }
-  if (Status s = LocalGlobalDeformer::restore(state); !s.ok()) return s;
+  if (Status s = LocalGlobalDeformer::do_restore(state); !s.ok()) return s;
   for (std::size_t k = 0; k < folded.size(); ++k) {
     impl_->model.set_normal(static_cast<Index>(folded[k]), Eigen::Vector3d(&normals->data[3 * k]));
   }

@@ -36,9 +36,9 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   /// weights/mu, weights/pStretch, weights/pBend, weights/gravity (the force on a vertex);
   /// floating: vertices of parts that nothing holds, on which gravity does not act; folded/edge,
   /// folded/normal: edges so folded that they have no normal of their own; result; handles.
-  State save() const override;
+  State do_save() const override;
   /// Needs `result`; takes the normals of `folded` where it is there.
-  Status restore(const State& state) override;
+  Status do_restore(const State& state) override;
 
  private:
   LocalModel& model() const override;

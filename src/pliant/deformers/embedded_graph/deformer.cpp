@@ -1,8 +1,6 @@
 #include "pliant/deformers/embedded_graph/deformer.h"
 
 #include <cmath>
-#include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "pliant/deformers/embedded_graph/graph.h"
 #include "pliant/deformers/embedded_graph/refine.h"
 #include "pliant/deformers/embedded_graph/solver.h"
+#include "pliant/deformers/embedded_graph/start.h"
 #include "pliant/deformers/embedded_graph/transfer.h"
 
 namespace pliant {
@@ -21,7 +20,6 @@ using embedded::GraphEnergy;
 using embedded::GraphSolver;
 using embedded::PackedMaps;
 using embedded::Pose;
-using embedded::Turn;
 
 struct EmbeddedGraph::Impl {
   EmbeddedGraphOptions options;
@@ -30,43 +28,17 @@ struct EmbeddedGraph::Impl {
   GraphSolver solver;
   Points rest_normals;
 
-  bool grab_changed = true;
-  bool targets_changed = true;
-  int iteration = 0;
-  /// The motion a handle had when the targets were last taken; empty: moved by targets.
-  std::map<HandleId, std::optional<Motion>> applied;
+  embedded::GraphStart start{solver};
 
   embedded::Weights weights() const {
     return {options.rotation_weight, options.regularization_weight, options.constraint_weight};
   }
-  Status set_up(const EmbeddedGraph& self);
-  void take_targets(const EmbeddedGraph& self);
-  std::vector<Turn> turns(const std::vector<Handle>& handles);
-  embedded::Terms terms(const EmbeddedGraph& self) const;
+  embedded::Terms terms_of(const Shape& shape, const Constraints& constraints) const;
   PackedMaps position_maps() const;
   PackedMaps normal_maps() const;
 };
 
 namespace {
-
-struct Constrained {
-  std::vector<Index> points;
-  Points targets;
-};
-
-Constrained constrained_points(const std::vector<Handle>& handles) {
-  Constrained all;
-  for (const Handle& handle : handles) {
-    all.points.insert(all.points.end(), handle.points.begin(), handle.points.end());
-  }
-  all.targets.resize(3, static_cast<Index>(all.points.size()));
-  Index at = 0;
-  for (const Handle& handle : handles) {
-    all.targets.middleCols(at, handle.targets.cols()) = handle.targets;
-    at += static_cast<Index>(handle.targets.cols());
-  }
-  return all;
-}
 
 Influences rows_of(const Influences& influences, const std::vector<Index>& rows) {
   Influences some;
@@ -98,54 +70,12 @@ std::vector<bool> frozen_nodes(const DeformationGraph& graph, const std::vector<
 
 }  // namespace
 
-Status EmbeddedGraph::Impl::set_up(const EmbeddedGraph& self) {
-  const std::vector<bool> frozen = frozen_nodes(graph, self.fixed_points());
-  Pose start = pose;
-  for (Index j = 0; j < graph.size(); ++j) {
-    if (frozen[j]) start.col(j).setZero();
-  }
-  const Constrained constrained = constrained_points(self.handles());
-  Status status = solver.set_up(graph, frozen, graph.scaled(self.shape().points()(Eigen::all, constrained.points)),
-                                rows_of(graph.influences, constrained.points),
-                                {weights(), options.solver, options.exact_handles}, start);
-  if (!status.ok()) return status;
-  pose = std::move(start);
-  grab_changed = false;
-  targets_changed = true;
-  iteration = 0;
-  return {};
-}
-
-std::vector<Turn> EmbeddedGraph::Impl::turns(const std::vector<Handle>& handles) {
-  std::vector<Turn> result;
-  Index at = 0;
-  for (const Handle& handle : handles) {
-    Turn turn;
-    for (Index i = 0; i < handle.rest.cols(); ++i) turn.constraints.push_back(at++);
-    const auto before = applied.try_emplace(handle.id, Motion{}).first;
-    if (handle.motion) turn.rotation = turn_between(before->second, *handle.motion);
-    before->second = handle.motion;
-    if (!handle.motion && handle.targets == handle.rest) before->second = Motion{};
-    result.push_back(std::move(turn));
-  }
-  return result;
-}
-
-void EmbeddedGraph::Impl::take_targets(const EmbeddedGraph& self) {
-  const Constrained constrained = constrained_points(self.handles());
-  solver.set_targets(graph.scaled(constrained.targets), turns(self.handles()));
-  solver.store(pose);
-  targets_changed = false;
-}
-
-embedded::Terms EmbeddedGraph::Impl::terms(const EmbeddedGraph& self) const {
-  if (!grab_changed && !targets_changed) return solver.terms();
-  const Constrained constrained = constrained_points(self.handles());
+embedded::Terms EmbeddedGraph::Impl::terms_of(const Shape& shape, const Constraints& constraints) const {
+  const std::vector<Index> moved = constraints.moved_points();
+  const Points rest = graph.scaled(shape.points()(Eigen::all, moved));
   GraphEnergy energy;
-  const Points rest = graph.scaled(self.shape().points()(Eigen::all, constrained.points));
-  energy.set_up(graph, std::vector<bool>(graph.size(), false), rest, rows_of(graph.influences, constrained.points),
-                weights());
-  energy.constraints().set_targets(graph.scaled(constrained.targets) - rest);
+  energy.set_up(graph, std::vector<bool>(graph.size(), false), rest, rows_of(graph.influences, moved), weights());
+  energy.constraints().set_targets(graph.scaled(constraints.targets()) - rest);
   const embedded::Vector x = embedded::unknowns_of(pose);
   energy.evaluate(x);
   embedded::Terms terms = energy.terms();
@@ -190,31 +120,51 @@ Result<std::unique_ptr<EmbeddedGraph>> EmbeddedGraph::create(std::shared_ptr<con
   return std::unique_ptr<EmbeddedGraph>(new EmbeddedGraph(std::move(shape), std::move(impl)));
 }
 
-void EmbeddedGraph::constraints_changed() { impl_->grab_changed = true; }
-void EmbeddedGraph::targets_changed() { impl_->targets_changed = true; }
+Status EmbeddedGraph::set_up() {
+  Impl& impl = *impl_;
+  const DeformationGraph& graph = impl.graph;
+  const std::vector<bool> frozen = frozen_nodes(graph, fixed_points());
+  Pose pose = impl.pose;
+  for (Index j = 0; j < graph.size(); ++j) {
+    if (frozen[j]) pose.col(j).setZero();
+  }
+  const std::vector<Index> moved = constraints().moved_points();
+  const Influences influences = rows_of(graph.influences, moved);
+  const Points rest = graph.scaled(shape().points()(Eigen::all, moved));
+  const EmbeddedGraphOptions& options = impl.options;
+  Status status = impl.solver.set_up(graph, frozen, rest, influences,
+                                     {impl.weights(), options.solver, options.exact_handles}, pose);
+  if (!status.ok()) return status;
+  impl.start.set_up(graph, influences, handles());
+  impl.pose = std::move(pose);
+  return {};
+}
+
+Start& EmbeddedGraph::take_targets() {
+  Points targets = constraints().targets();
+  impl_->solver.set_targets(impl_->graph.scaled(targets));
+  impl_->start.set_targets(std::move(targets));
+  return impl_->start;
+}
+
+Result<StepReport> EmbeddedGraph::iterate(double tolerance) {
+  const auto outcome = impl_->solver.step(tolerance);
+  if (!outcome.ok()) {
+    pattern_changed();  // what was factorised last is of no use
+    return outcome.status();
+  }
+  impl_->solver.store(impl_->pose);
+  return StepReport{0, impl_->solver.terms().total(impl_->weights()), outcome->accepted, outcome->converged};
+}
 
 void EmbeddedGraph::do_reset() {
   impl_->pose.setZero();
-  impl_->applied.clear();
-  impl_->grab_changed = true;
-}
-
-Result<StepReport> EmbeddedGraph::do_step(double tolerance) {
-  if (impl_->grab_changed) {
-    if (Status s = impl_->set_up(*this); !s.ok()) return s;
-  }
-  if (impl_->targets_changed) impl_->take_targets(*this);
-  const auto outcome = impl_->solver.step(tolerance);
-  if (!outcome.ok()) return outcome.status();
-  impl_->solver.store(impl_->pose);
-  if (outcome->accepted) ++impl_->iteration;
-  return StepReport{impl_->iteration, impl_->solver.terms().total(impl_->weights()), outcome->accepted,
-                    outcome->converged};
+  pattern_changed();
 }
 
 Energy EmbeddedGraph::energy() const {
   const embedded::Weights w = impl_->weights();
-  const embedded::Terms terms = impl_->terms(*this);
+  const embedded::Terms terms = up_to_date() ? impl_->solver.terms() : impl_->terms_of(shape(), constraints());
   Energy energy{terms.total(w),
                 {{"rotation", terms.rotation, w.rotation},
                  {"regularization", terms.regularization, w.regularization},
@@ -256,7 +206,7 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
     return Status(ErrorCode::invalid_option,
                   "refine: maxNodes is " + std::to_string(max_nodes) + "; expected at least 1");
   }
-  if (impl_->grab_changed || impl_->targets_changed) return Index{0};  // nothing solved: no terms to go by
+  if (!up_to_date()) return Index{0};  // nothing solved: no terms to go by
   const Points fresh = embedded::nodes_to_add(shape(), impl_->graph, impl_->solver, max_nodes);
   if (fresh.cols() == 0) return Index{0};
   Points nodes(3, impl_->graph.size() + fresh.cols());
@@ -264,11 +214,11 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
   DeformationGraph refined = build_graph(shape(), std::move(nodes), impl_->options);
   impl_->pose = embedded::inherited_pose(shape(), impl_->graph, impl_->pose, refined);
   impl_->graph = std::move(refined);
-  impl_->grab_changed = true;
+  pattern_changed();
   return static_cast<Index>(fresh.cols());
 }
 
-State EmbeddedGraph::save() const {
+State EmbeddedGraph::do_save() const {
   const DeformationGraph& graph = impl_->graph;
   State state;
   auto copy = [&](const char* name, int columns, const auto& data, bool integral) {
@@ -298,11 +248,10 @@ State EmbeddedGraph::save() const {
   copy("influences/indices", 1, influences.indices, true);
   copy("influences/weights", 1, influences.weights, false);
   state.add("lengthUnit", 0, false).data = {graph.length_unit};
-  save_handles(state);
   return state;
 }
 
-Status EmbeddedGraph::restore(const State& state) {
+Status EmbeddedGraph::do_restore(const State& state) {
   const StateTable* nodes = state.find("nodes");
   const StateTable* rotations = state.find("rotations");
   const StateTable* translations = state.find("translations");
@@ -335,10 +284,8 @@ Status EmbeddedGraph::restore(const State& state) {
       impl_->pose(4 * a + 3, j) = translations->data[3 * j + a] / impl_->graph.length_unit;
     }
   }
-  impl_->grab_changed = true;
-  impl_->applied.clear();
-  for (const Handle& handle : handles()) impl_->applied[handle.id] = std::nullopt;
-  return restore_handles(state);
+  pattern_changed();
+  return {};
 }
 
 }  // namespace pliant

@@ -28,14 +28,14 @@ class EmbeddedGraph final : public Deformer {
   Points point_positions() const override;
   Points point_normals() const override;
   Result<Points> transform_points(const Points& points) const override;
-  State save() const override;
-  Status restore(const State& state) override;
 
  protected:
-  void constraints_changed() override;
-  void targets_changed() override;
-  Result<StepReport> do_step(double tolerance) override;
+  Status set_up() override;
+  Start& take_targets() override;
+  Result<StepReport> iterate(double tolerance) override;
   void do_reset() override;
+  State do_save() const override;
+  Status do_restore(const State& state) override;
 
  private:
   struct Impl;

@@ -149,6 +149,14 @@ Eigen::Vector3d GraphEnergy::translation(const Vector& x, Index j) const {
   return {entry(x, 0, j)[3], entry(x, 1, j)[3], entry(x, 2, j)[3]};
 }
 
+void GraphEnergy::set_displacement_gradient(Vector& x, Index j, const Eigen::Matrix3d& u) const {
+  for (int a = 0; a < 3; ++a) Eigen::Map<Eigen::RowVector3d>(entry(x, a, j)) = u.row(a);
+}
+
+void GraphEnergy::set_translation(Vector& x, Index j, const Eigen::Vector3d& t) const {
+  for (int a = 0; a < 3; ++a) entry(x, a, j)[3] = t[a];
+}
+
 void GraphEnergy::regularization_residuals(const Vector& x, Points& reg) const {
   // Eq. 7 in displacements: R_j (g_k - g_j) + g_j + t_j - g_k - t_k = U_j d + t_j - t_k.
   static constexpr double kAtRest[4] = {0, 0, 0, 0};

@@ -89,6 +89,8 @@ class GraphEnergy {
   const double* entry(const Vector& x, int a, Index j) const { return x.data() + a * rows() + 4 * j; }
   Eigen::Matrix3d displacement_gradient(const Vector& x, Index free_node) const;  ///< U_j
   Eigen::Vector3d translation(const Vector& x, Index free_node) const;            ///< t_j
+  void set_displacement_gradient(Vector& x, Index free_node, const Eigen::Matrix3d& u) const;
+  void set_translation(Vector& x, Index free_node, const Eigen::Vector3d& t) const;
 
  private:
   /// Both directed residuals of an undirected edge; -1 for a frozen end.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -30,10 +29,6 @@ constexpr double kExactReach = 2e-6;
 constexpr double kLeastDeterminant = 1e-3;
 /// Steps that promise to lower the energy by less than this part of it are rounding.
 constexpr double kRounding = 1e-13;
-/// Turns of the constraints below this (radians) need no prediction.
-constexpr double kSmallTurn = 0.2;
-/// So many points of a handle, evenly picked, tell its turn well enough for a prediction.
-constexpr std::size_t kEnoughForTurn = 250;
 
 double largest(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
 
@@ -49,9 +44,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   shift_ = displacement_;
   energy_.set_up(graph, frozen, constrained_, influences, weights);
   const Points g = graph.scaled(graph.nodes);
-  nodes_ = g(Eigen::all, energy_.node_of_free());
   extent_ = graph.size() > 0 ? (g.rowwise().maxCoeff() - g.rowwise().minCoeff()).norm() : 0.0;
-  find_components(graph, influences);
 
   x_.resize(3 * energy_.rows());
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
@@ -63,32 +56,13 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
     // A pose from elsewhere may hold reflections.
     const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + energy_.displacement_gradient(x_, j);
     if (r.determinant() < kLeastDeterminant) {
-      set_displacement_gradient(j, closest_rotation(r) - Eigen::Matrix3d::Identity());
+      energy_.set_displacement_gradient(x_, j, closest_rotation(r) - Eigen::Matrix3d::Identity());
     }
   }
   for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
   memory_.reset(x_.size());
   if (energy_.free_nodes() == 0) return {};
   return factorize_metric(graph);
-}
-
-void GraphSolver::find_components(const DeformationGraph& graph, const Influences& influences) {
-  DisjointSets sets(energy_.free_nodes());
-  for (const auto& [j, k] : energy_.free_edges()) sets.join(j, k);
-  components_ = sets.numbered();
-  const std::vector<Index>& free_of_node = energy_.free_of_node();
-  anchored_.assign(components_.count, false);
-  for (const auto& [a, b] : graph.edges) {
-    const Index j = free_of_node[a], k = free_of_node[b];
-    if ((j < 0) != (k < 0)) anchored_[components_.of[std::max(j, k)]] = true;
-  }
-  constraint_component_.assign(constrained_.cols(), -1);
-  for (Index l = 0; l < constrained_.cols(); ++l) {
-    for (int s = 0; s < influences.k && constraint_component_[l] < 0; ++s) {
-      const Index node = influences.indices[static_cast<std::size_t>(l) * influences.k + s];
-      if (free_of_node[node] >= 0) constraint_component_[l] = components_.of[free_of_node[node]];
-    }
-  }
 }
 
 double GraphSolver::damping() const { return options_.exact ? kDamping + kExactDamping : kDamping; }
@@ -119,112 +93,63 @@ Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
   return newton_factor_.analyze_like(metric_factor_, newton_);
 }
 
-void GraphSolver::set_targets(const Points& targets, const std::vector<Turn>& turns) {
+void GraphSolver::set_targets(const Points& targets) {
   displacement_ = targets - constrained_;
   shift_.setZero();
   last_violation_ = 0.0;
   energy_.constraints().set_targets(displacement_);
   evaluate();
-  if (energy_.free_nodes() == 0) return;
-  const bool beyond_half_turn =
-      std::any_of(turns.begin(), turns.end(), [](const Turn& t) { return t.rotation.norm() > std::numbers::pi; });
-  if (!beyond_half_turn) predict_rigid();
-  predict_turns(turns, beyond_half_turn);
   update_gradient();
 }
 
 bool GraphSolver::keep_if_lower(double previous_total) {
-  if (total() < previous_total) {
+  const bool lower = total() < previous_total;
+  if (lower) {
     memory_.clear();
-    return true;
+  } else {
+    x_ = previous_;
+    evaluate();
   }
-  x_ = previous_;
-  evaluate();
-  return false;
+  update_gradient();
+  return lower;
 }
 
-RigidMotion GraphSolver::motion_of(const std::vector<Index>& constraints, std::size_t most) const {
-  RigidFit fit;
-  const std::size_t stride = std::max<std::size_t>(1, constraints.size() / most);
-  for (std::size_t i = 0; i < constraints.size(); i += stride) {
-    const Index l = constraints[i];
-    const Eigen::Vector3d wanted = constrained_.col(l) + displacement_.col(l);
-    fit.add(wanted + shift_.col(l) + energy_.constraints().evaluated().col(l), wanted);
-  }
-  return fit.motion();
-}
-
-void GraphSolver::predict_rigid() {
-  // A component that nothing holds follows the best rigid motion of its handles at no cost.
-  std::vector<std::vector<Index>> floating(components_.count);  // constraints of components that float
-  for (Index l = 0; l < constrained_.cols(); ++l) {
-    const Index c = constraint_component_[l];
-    if (c >= 0 && !anchored_[c]) floating[c].push_back(l);
-  }
-  if (std::all_of(floating.begin(), floating.end(), [](const auto& f) { return f.empty(); })) return;
-  previous_ = x_;
+void GraphSolver::start_at(const Vector& x) {
   const double before = total();
-  for (Index c = 0; c < components_.count; ++c) {
-    const std::vector<Index>& members = floating[c];
-    if (members.empty()) continue;
-    const RigidMotion motion = motion_of(members, members.size());
-    for (Index j = 0; j < energy_.free_nodes(); ++j) {
-      if (components_.of[j] != c) continue;
-      const Eigen::Vector3d at = nodes_.col(j) + energy_.translation(x_, j);
-      const Eigen::Vector3d shift = motion.rotation * at + motion.translation - nodes_.col(j);
-      turn_node(j, motion.rotation);
-      for (int a = 0; a < 3; ++a) energy_.entry(x_, a, j)[3] = shift[a];
-    }
-  }
+  previous_ = x_;
+  x_ = x;
   evaluate();
   keep_if_lower(before);
 }
 
-void GraphSolver::turn_node(Index j, const Eigen::Matrix3d& rotation) {
-  // U' = Q (I + U) - I, in displacements.
-  const Eigen::Matrix3d u = energy_.displacement_gradient(x_, j);
-  set_displacement_gradient(j, rotation * u + (rotation - Eigen::Matrix3d::Identity()));
+Vector GraphSolver::spread(const std::vector<std::vector<Index>>& groups,
+                           const std::vector<Eigen::Vector3d>& displacements) {
+  Vector spread = Vector::Zero(x_.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    energy_.constraints().add_common(groups[g], displacements[g], spread);
+  }
+  spread *= energy_.weights().constraint;
+  if (spread.size() > 0) metric_factor_.solve(spread.data(), 3);
+  return spread;
 }
 
-void GraphSolver::set_displacement_gradient(Index j, const Eigen::Matrix3d& u) {
-  for (int a = 0; a < 3; ++a) {
-    for (int c = 0; c < 3; ++c) energy_.entry(x_, a, j)[c] = u(a, c);
-  }
-}
-
-void GraphSolver::predict_turns(const std::vector<Turn>& turns, bool as_told) {
-  // The turns of the handles, spread over the graph as smoothly as its Laplacian can, give every
-  // node a rotation to start from; translations follow by one linear solve.
-  std::vector<Eigen::Vector3d> rotations;
-  double largest = 0.0;
-  for (const Turn& turn : turns) {
-    // Where no turn is told beyond what the points show, the points know better: the shape may lag.
-    rotations.push_back(as_told ? turn.rotation
-                                : rotation_vector_of(motion_of(turn.constraints, kEnoughForTurn).rotation));
-    largest = std::max(largest, rotations.back().norm());
-  }
-  if (largest < kSmallTurn) return;
-
-  // What spreads displacements over the graph spreads turns as well.
-  previous_ = x_;
+void GraphSolver::start_turned(const Vector& x, bool in_any_case) {
+  if (energy_.free_nodes() == 0) return;
   const double before = total();
-  direction_.setZero();
-  for (std::size_t t = 0; t < turns.size(); ++t)
-    energy_.constraints().add_common(turns[t].constraints, rotations[t], direction_);
-  direction_ *= options_.weights.constraint;
-  metric_factor_.solve(direction_.data(), 3);
-  for (Index j = 0; j < energy_.free_nodes(); ++j) turn_node(j, rotation_of(energy_.translation(direction_, j)));
-  direction_ = x_ - previous_;
-  energy_.along(previous_, direction_);
+  previous_ = x_;
+  direction_ = x - x_;
+  energy_.along(x_, direction_);
+  x_ = x;
   energy_.advance(1.0, x_);  // turns keep determinants, and with them the barrier
   update_gradient();
   follow_metric();
-  if (as_told) {
-    // Targets alone cannot tell a turn from the same turn short of a full one: take it as told.
-    memory_.clear();
-  } else {
+  if (!in_any_case) {
     keep_if_lower(before);
+    return;
   }
+  // Targets alone cannot tell a turn from the same turn short of a full one: take it as told.
+  memory_.clear();
+  update_gradient();
 }
 
 void GraphSolver::follow_metric() {

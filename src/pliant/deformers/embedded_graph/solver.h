@@ -9,7 +9,6 @@
 
 #include <vector>
 
-#include "pliant/core/disjoint_sets.h"
 #include "pliant/core/status.h"
 #include "pliant/deformers/embedded_graph/barrier.h"
 #include "pliant/deformers/embedded_graph/energy.h"
@@ -19,14 +18,6 @@
 #include "pliant/solve/lbfgs.h"
 
 namespace pliant::embedded {
-
-/// A handle's part in the constraints.
-struct Turn {
-  std::vector<Index> constraints;  ///< its columns of the constrained points
-  /// How far it turned since the last targets, axis times angle; matters beyond half a turn, which
-  /// the targets alone cannot show.
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
-};
 
 struct SolverOptions {
   Weights weights;
@@ -42,9 +33,20 @@ class GraphSolver {
   Status set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, Points constrained,
                 const Influences& influences, const SolverOptions& options, const Pose& pose);
 
-  /// New targets (3 x c, scaled). Starts from the present pose, turned along with the groups where
-  /// that lowers the energy.
-  void set_targets(const Points& targets, const std::vector<Turn>& turns);
+  /// New targets (3 x c, scaled).
+  void set_targets(const Points& targets);
+  /// From the target of a constrained point to where it stands, scaled; after set_targets or a start.
+  Eigen::Vector3d gap(Index constrained) const {
+    return shift_.col(constrained) + energy_.constraints().evaluated().col(constrained);
+  }
+
+  // Other places to start from, taken where the energy (and the barrier) is lower.
+  void start_at(const Vector& x);
+  /// x differs from the present unknowns by turns of nodes about themselves. Goes one step along the
+  /// metric from there.
+  void start_turned(const Vector& x, bool in_any_case);
+  /// Groups of constrained points that want to be displaced, spread over the graph by the metric.
+  Vector spread(const std::vector<std::vector<Index>>& groups, const std::vector<Eigen::Vector3d>& displacements);
 
   struct Outcome {
     bool accepted = false;
@@ -63,13 +65,8 @@ class GraphSolver {
   void store(Pose& pose) const;
 
  private:
-  void find_components(const DeformationGraph& graph, const Influences& influences);
   double damping() const;
   Status factorize_metric(const DeformationGraph& graph);
-  void predict_rigid();
-  void predict_turns(const std::vector<Turn>& turns, bool as_told);
-  void turn_node(Index free_node, const Eigen::Matrix3d& rotation);
-  void set_displacement_gradient(Index free_node, const Eigen::Matrix3d& u);
   /// One step along the metric's own direction, from an up-to-date gradient.
   void follow_metric();
   /// After x_ and the energy have moved on from previous_: goes back unless the energy fell.
@@ -85,21 +82,14 @@ class GraphSolver {
   void update_gradient();
   barrier::Fall search_line();
   bool tighten(double tolerance);
-  /// What takes constrained points from where the energy was last evaluated to their targets; of
-  /// more than twice `most` only some are asked.
-  RigidMotion motion_of(const std::vector<Index>& constraints, std::size_t most) const;
 
   SolverOptions options_;
   GraphEnergy energy_;
-  Points nodes_;         ///< scaled rest positions of the free nodes
   double extent_ = 0.0;  ///< scaled size of the graph
   Points constrained_;   ///< scaled rest positions
   Points displacement_;  ///< wanted, from rest
   Points shift_;         ///< of the targets, accumulated: multipliers of the exact constraints
   double last_violation_ = 0.0;
-  DisjointSets::Numbered components_;  ///< of the free nodes, in their graph
-  std::vector<bool> anchored_;         ///< components that touch a frozen node
-  std::vector<Index> constraint_component_;
 
   Vector x_, gradient_, direction_, previous_, step_, change_;
   BlockMatrix constant_, newton_;
