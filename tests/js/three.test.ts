@@ -88,6 +88,64 @@ describe("pliant/three", () => {
     expect(data.version).toBeGreaterThan(0);
   });
 
+  /** A geometry of floats with its attributes in 16 and 8 bits, as gltfpack leaves them; `interleaved`: side by side. */
+  function quantised(geometry: THREE.BufferGeometry, interleaved: boolean): THREE.BufferGeometry {
+    const result = new THREE.BufferGeometry().setIndex(geometry.index);
+    const attribute = (name: string, array: Int16Array | Int8Array) => {
+      const scale = array instanceof Int16Array ? 32767 : 127;
+      array.set(Array.from(geometry.getAttribute(name).array, (x) => Math.round(scale * x)));
+      if (!interleaved) return new THREE.BufferAttribute(array, 3, true);
+      return new THREE.InterleavedBufferAttribute(new THREE.InterleavedBuffer(array, 3), 3, 0, true);
+    };
+    const { length } = geometry.getAttribute("position").array;
+    result.setAttribute("position", attribute("position", new Int16Array(length)));
+    return result.setAttribute("normal", attribute("normal", new Int8Array(length)));
+  }
+
+  it.each([false, true])("follows beyond the range of quantised attributes, interleaved %s", async (interleaved) => {
+    const geometry = quantised(new THREE.CylinderGeometry(0.3, 0.3, 1.9, 16, 12), interleaved);
+    const { deformer } = await bent(geometry);
+    const position = geometry.getAttribute("position");
+    expect(Float32Array.from({ length: 3 * position.count }, (_, i) => [position.getX, position.getY, position.getZ][i % 3].call(position, Math.floor(i / 3))))
+      .toEqual(deformer.positions());
+    expect(geometry.boundingBox!.max.x).toBeGreaterThan(1.2);
+    const normal = geometry.getAttribute("normal");
+    for (let i = 0; i < normal.count; ++i) expect(Math.hypot(normal.getX(i), normal.getY(i), normal.getZ(i))).toBeCloseTo(1, 5);
+  });
+
+  it("has tangents that follow, as those made anew", async () => {
+    const geometry = new THREE.CylinderGeometry(0.3, 0.3, 2, 16, 12);
+    geometry.computeTangents();
+    const rest = geometry.getAttribute("tangent").clone();
+    await bent(geometry);
+    const moved = geometry.getAttribute("tangent").clone();
+    geometry.computeTangents();
+    const made = geometry.getAttribute("tangent");
+    const at = (attribute: { array: ArrayLike<number> }, i: number) => new THREE.Vector3(attribute.array[4 * i], attribute.array[4 * i + 1], attribute.array[4 * i + 2]);
+    let turned = 0;
+    for (let i = 0; i < made.count; ++i) {
+      expect(moved.array[4 * i + 3]).toBe(rest.array[4 * i + 3]);
+      expect(at(moved, i).length()).toBeCloseTo(1, 5);
+      expect(at(moved, i).dot(at(made, i))).toBeGreaterThan(0.95);
+      turned = Math.max(turned, at(moved, i).distanceTo(at(rest, i)));
+    }
+    expect(turned).toBeGreaterThan(0.1);
+  });
+
+  it("takes absolute morph targets along, and leaves relative ones", async () => {
+    for (const relative of [false, true]) {
+      const geometry = new THREE.CylinderGeometry(0.3, 0.3, 2, 16, 12);
+      const rest = Float32Array.from(geometry.getAttribute("position").array);
+      const target = new THREE.BufferAttribute(relative ? rest.map(() => 0.25) : rest.map((x) => x + 0.25), 3);
+      geometry.morphAttributes.position = [target];
+      geometry.morphTargetsRelative = relative;
+      await bent(geometry);
+      const moved = geometry.getAttribute("position").array;
+      moved.forEach((x: number, i: number) => expect(target.array[i]).toBeCloseTo(relative ? 0.25 : x + 0.25, 5));
+      expect(geometry.boundingBox!.max.x).toBeGreaterThan(1.4);
+    }
+  });
+
   it("takes positions from elsewhere", () => {
     const geometry = new THREE.PlaneGeometry(1, 1);
     const binding = new GeometryBinding(geometry as never);
@@ -99,6 +157,10 @@ describe("pliant/three", () => {
     const geometry = new THREE.PlaneGeometry(1, 1);
     expect((await errorOf(() => shapeOf(new THREE.BufferGeometry() as never))).code).toBe("invalid-shape");
     expect((await errorOf(() => shapeOf(undefined as never))).code).toBe("invalid-shape");
+    const binding = new GeometryBinding(geometry as never);
+    for (const nothing of [undefined, null, {}]) {
+      expect(await errorOf(() => binding.update(nothing as never))).toMatchObject({ code: "invalid-option", message: expect.stringContaining("deformer is") });
+    }
     expect((await errorOf(() => new GeometryBinding(geometry as never).write(new Float32Array(3)))).code).toBe("invalid-option");
   });
 });

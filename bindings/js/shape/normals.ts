@@ -2,6 +2,7 @@
 // normal at rest keep sharing it, so that smooth stays smooth and hard edges stay hard.
 
 import { toSpace } from "../boundary/check.js";
+import { equalRows } from "./groups.js";
 
 /** Which vertices share a normal, and the triangles around them. */
 export class NormalGroups {
@@ -11,16 +12,17 @@ export class NormalGroups {
 
   /** positions, normals: three numbers a vertex, at rest. triangles: three vertex ids each. */
   constructor(positions: ArrayLike<number>, normals: ArrayLike<number>, triangles: ArrayLike<number>) {
-    const groups = new Map<string, number>();
-    this.#group = Uint32Array.from({ length: positions.length / 3 }, (_, v) => {
-      const place = [0, 1, 2].map((axis) => positions[3 * v + axis]);
-      // Normals of one smooth vertex may differ by rounding.
-      const facing = [0, 1, 2].map((axis) => Math.round(normals[3 * v + axis] * 1000));
-      const key = [...place, ...facing].join();
-      if (!groups.has(key)) groups.set(key, groups.size);
-      return groups.get(key)!;
-    });
-    this.#size = groups.size;
+    const rows = new Float64Array(2 * positions.length);
+    for (let at = 0; at < positions.length; at += 3) {
+      for (let axis = 0; axis < 3; ++axis) {
+        rows[2 * at + axis] = positions[at + axis] + 0; // -0 is 0
+        // Normals of one smooth vertex may differ by rounding.
+        rows[2 * at + 3 + axis] = Math.round(normals[at + axis] * 1000) + 0;
+      }
+    }
+    const { group, count } = equalRows(rows, 6);
+    this.#group = group;
+    this.#size = count;
     this.#triangles = triangles;
   }
 
