@@ -175,6 +175,9 @@ const shape = pliant.shape(mesh);
 const graph = editCases["embedded-graph"].step as Record<string, never> & { handles: object[] };
 const material = { ...editCases["edge-material"].step } as Record<string, unknown>;
 
+const left = { vertices: where(mesh.positions, (x) => x < 0.1) };
+const hand = where(mesh.positions, (x) => x > 0.9);
+
 describe("what a change costs", () => {
   const cost = (steps: object, next: object) => {
     const edit = carriedOut(shape, document([steps]));
@@ -334,6 +337,27 @@ describe("several steps", () => {
     expect(doubles(edit)).toEqual(good);
   });
 
+  it("put models away that are not needed, and make them again where they are", async () => {
+    const turn = (z: number) => ({ ...graph, fixed: [left], handles: [{ name: "hand", select: { vertices: hand }, move: { translate: [0, 0, z] } }] });
+    const many = [0.1, -0.05, 0.1, -0.05, 0.1, 0.05].map(turn);
+    const edit = carriedOut(shape, document(many));
+    const { positions, report } = await pliant.edit(shape, document(many) as never);
+    expect(doubles(edit)).toEqual(positions);
+    expect(edit.report().steps.map(({ method, factorizations }) => [method, factorizations])).toEqual(report.steps.map(({ method, factorizations }) => [method, factorizations]));
+    const moment = edit.moment();
+    for (const count of [5, 2]) {
+      edit.apply(document(many.slice(0, count)));
+      expect(edit.run()).toMatchObject({ iterations: 0, converged: true });
+      expect(distance(doubles(edit), doubles(carriedOut(shape, document(many.slice(0, count)))))).toBeLessThan(1e-12);
+    }
+    edit.apply(moment);
+    expect(distance(doubles(edit), positions)).toBeLessThan(1e-12);
+    const changed = many.map((step, i) => (i === 1 ? turn(-0.1) : step));
+    edit.apply(document(changed));
+    edit.run();
+    expect(distance(doubles(edit), doubles(carriedOut(shape, document(changed))))).toBeLessThan(1e-3);
+  });
+
   it("take the region of the sketch before, and what refinement has added", () => {
     const { step, moved } = editCases.sketch;
     const coarse = limb(12, 13);
@@ -399,7 +423,6 @@ describe("a history", () => {
 });
 
 describe("a place step", () => {
-  const hand = where(mesh.positions, (x) => x > 0.9);
   const targets = hand.map((v) => [v, 0, 1]);
 
   it("puts vertices where it says, and the rest stays", async () => {

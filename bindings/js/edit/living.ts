@@ -17,7 +17,7 @@ import type { Rest } from "./rest.js";
 import { checkedParts, checkedRoles } from "./roles.js";
 import { same } from "./same.js";
 import { SketchStage } from "./sketch_stage.js";
-import type { StageMoment } from "./stage.js";
+import { PutAway, type StageMoment } from "./stage.js";
 import { Stages } from "./stages.js";
 import type { EditDocument, EditMoment, EditQuality, EditReport, EditRun, EditStep, RunOptions, SettleOptions, SketchView } from "./types.js";
 
@@ -84,7 +84,7 @@ export class Edit {
 
   /** The document and how far it has been carried out: plain data. Moments of one edit share what has not changed between them. */
   moment(): EditMoment {
-    const stages = this.#live.shown.map((stage) => stage.moment());
+    const stages = this.#live.moments().map(({ moment }) => moment);
     return { format: momentFormat, version: 1, document: this.#asked.document, stages };
   }
 
@@ -96,7 +96,7 @@ export class Edit {
 
   #goTo(moment: EditMoment): void {
     const { asked, stood, stages } = this.#readMoment(moment);
-    const before = this.#live.shown.map((stage) => ({ plan: stage.standsFor, moment: stage.moment() }));
+    const before = this.#live.moments();
     try {
       this.#live.bringBack(stages.map((stage, at) => ({ plan: stood[at], moment: stage })));
     } catch (error) {
@@ -148,7 +148,7 @@ export class Edit {
     const stages = this.#live;
     for (const [at, plan] of this.#asked.plans.entries()) {
       const { stage, changed } = located(plan.place, () => stages.prepared(at, plan));
-      if (stage.done) continue;
+      if (stage instanceof PutAway || stage.done) continue;
       if (changed && late()) return undefined;
       const step = located(plan.place, () => stage.advance());
       stages.show(at);
@@ -160,9 +160,9 @@ export class Edit {
 
   /** Where nothing is left to do. */
   #standing(): EditStep {
-    const { shown, last } = this.#live;
+    const { last } = this.#live;
     const { total = 0, ...terms } = last?.energy() ?? {};
-    return { step: Math.max(0, shown.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0 };
+    return { step: Math.max(0, this.#asked.plans.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0 };
   }
 
   /** Runs to the end and lets the event loop turn after each iteration. Errors: as `run`, aborted. */
@@ -213,7 +213,7 @@ export class Edit {
 
   /** Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable where a step moves the surface alone. @internal */
   carry(points: Float64Array): void {
-    for (const stage of this.#live.shown) stage.carry(points);
+    this.#live.carry(points);
   }
 
   /** Of the last step, as in `EditResult`. */
@@ -241,8 +241,8 @@ export class Edit {
 
   /** What the steps have done: their costs count from `open` on, their iterations since they last began anew. */
   report(): EditReport {
-    const steps = this.#live.shown.map((stage) => stage.report());
-    return { format: "pliant-report", version: 1, shape: { ...this.shape.report }, steps, quality: this.#quality() };
+    const shape = { ...this.shape.report };
+    return { format: "pliant-report", version: 1, shape, steps: this.#live.reports(), quality: this.#quality() };
   }
 
   #quality(): EditQuality {

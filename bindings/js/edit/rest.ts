@@ -33,8 +33,10 @@ export class Rest {
     return (this.#shape ??= new Shape(this.core, { positions, triangles, dimension }));
   }
 
-  /** Frees the shape; what is built over it lives on. */
+  /** Frees the shape, until it is asked for again; what is built over it lives on. */
   dispose(): void {
-    if (this.#shape !== this.input) this.#shape?.dispose();
+    if (this.#shape === this.input) return;
+    this.#shape?.dispose();
+    this.#shape = undefined;
   }
 }

@@ -146,7 +146,10 @@ export class SketchStage extends Stage<SketchPlan> {
 
   view(): SketchView {
     const sketch = this.#sketch;
-    return { labels: sketch.labels(), parameters: sketch.parameters(), reference: sketch.reference(), target: sketch.target() };
+    return {
+      labels: sketch.labels(), parameters: sketch.parameters(), reference: sketch.reference(), target: sketch.target(),
+      refinement: sketch.refinement,
+    };
   }
 
   state(): State {

@@ -129,10 +129,37 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
     this.changed();
   }
 
+  /** Comes back from where `PutAway` kept it. */
+  resume({ plan, rest, moment, next }: PutAway): void {
+    this.goTo(plan as P, rest, moment);
+    [this.#saved, this.#stands, this.#next] = [moment, true, next];
+  }
+
+  /** Without its model, which can be made again. */
+  putAway(): PutAway {
+    const kept = { plan: this.plan, rest: this.rest, moment: this.moment(), next: this.next(), report: this.report() };
+    this.#next = undefined; // it stays with what is kept
+    this.dispose();
+    return new PutAway(kept.plan, kept.rest, kept.moment, kept.next, kept.report);
+  }
+
   /** The result is another one from now on. */
   protected changed(): void {
     this.#stands = false;
     this.#next?.dispose();
     this.#next = undefined;
+  }
+}
+
+/** What is kept of a stage that is done while later ones are at work: no model, only what came of it. */
+export class PutAway {
+  readonly done = true;
+
+  constructor(
+    readonly plan: StepPlan, readonly rest: Rest, readonly moment: StageMoment, readonly next: Rest, readonly report: StepReport,
+  ) {}
+
+  isAt(plan: StepPlan, rest: Rest): boolean {
+    return plan === this.plan && rest === this.rest;
   }
 }

@@ -7,7 +7,8 @@ import { PlaceStage } from "./place_stage.js";
 import { Rest } from "./rest.js";
 import { SketchStage } from "./sketch_stage.js";
 import { SolverStage } from "./solver_stage.js";
-import type { Stage, StageMoment } from "./stage.js";
+import { PutAway, Stage, type StageMoment } from "./stage.js";
+import type { StepReport } from "./types.js";
 
 const makers = {
   solver: (plan: SolverPlan, rest: Rest): Stage => new SolverStage(plan, rest) as Stage,
@@ -15,43 +16,59 @@ const makers = {
   place: (plan: PlacePlan, rest: Rest): Stage => new PlaceStage(plan, rest) as Stage,
 };
 
+/** Models that are kept beside the last; earlier ones are made again when they are asked for. */
+const kept = 2;
+
 export class Stages {
   readonly input: Rest;
-  readonly #stages: Stage[] = [];
+  readonly #stages: (Stage | PutAway)[] = [];
   #front = -1;
 
   constructor(core: Core, shape: Shape) {
     this.input = Rest.ofInput(core, shape);
   }
 
-  /** Those up to the one whose result is shown; none: the input at rest. */
-  get shown(): readonly Stage[] {
-    return this.#stages.slice(0, this.#front + 1);
+  /** The one whose result is shown; none: the input at rest. */
+  get last(): Stage | undefined {
+    return this.#front < 0 ? undefined : this.#open(this.#front);
   }
 
-  get last(): Stage | undefined {
-    return this.#stages[this.#front];
+  /** Where those up to the last one are, and what they have done. */
+  moments(): { plan: StepPlan; moment: StageMoment }[] {
+    return this.#shown.map((stage) => (stage instanceof PutAway ? stage : { plan: stage.standsFor, moment: stage.moment() }));
+  }
+
+  reports(): StepReport[] {
+    return this.#shown.map((stage) => (stage instanceof PutAway ? stage.report : stage.report()));
+  }
+
+  /** Carries points through all of them, in place. */
+  carry(points: Float64Array): void {
+    for (let at = 0; at <= this.#front; ++at) this.#open(at).carry(points);
   }
 
   /** The stage of a step, over the result of the one before; those after it wait. Errors: then nothing has changed. */
-  prepared(at: number, plan: StepPlan): { stage: Stage; changed: boolean } {
-    const old = this.#stages[at];
+  prepared(at: number, plan: StepPlan): { stage: Stage | PutAway; changed: boolean } {
     const rest = this.#restOf(at);
-    if (old?.carries(plan)) {
-      const changed = old.prepare(plan, rest);
-      if (changed) this.#front = at;
-      return { stage: old, changed };
-    }
-    return { stage: this.#replace(at, make(plan, rest)), changed: true };
+    const old = this.#stages[at];
+    if (old?.isAt(plan, rest)) return { stage: old, changed: false };
+    const standing = old && this.#open(at);
+    if (!standing?.carries(plan)) return { stage: this.#replace(at, make(plan, rest)), changed: true };
+    const changed = standing.prepare(plan, rest);
+    if (changed) this.#front = at;
+    return { stage: standing, changed };
   }
 
   /** Takes the stages to where they were at a moment. */
   bringBack(stood: readonly { plan: StepPlan; moment: StageMoment }[]): void {
     stood.forEach(({ plan, moment }, at) => {
       const rest = this.#restOf(at);
-      if (!this.#stages[at]?.carries(plan)) this.#replace(at, make(plan, rest));
-      this.#stages[at].goTo(plan, rest, moment);
+      const old = this.#stages[at];
       this.#front = at;
+      if (old instanceof PutAway && old.moment === moment && old.isAt(plan, rest)) return;
+      const standing = old && this.#open(at);
+      const stage = standing?.carries(plan) ? standing : this.#replace(at, make(plan, rest));
+      stage.goTo(plan, rest, moment);
     });
     this.#front = stood.length - 1;
   }
@@ -72,22 +89,40 @@ export class Stages {
   /** Nothing comes after so many. */
   end(count: number): void {
     this.#front = count - 1;
-    for (const stage of this.#stages.splice(count)) stage.dispose();
+    for (const stage of this.#stages.splice(count)) if (!(stage instanceof PutAway)) stage.dispose();
   }
 
   reset(): void {
-    for (const stage of this.#stages) stage.reset();
+    this.#stages.forEach((_, at) => this.#open(at).reset());
     this.#front = Math.min(this.#front, 0);
   }
 
+  get #shown(): readonly (Stage | PutAway)[] {
+    return this.#stages.slice(0, this.#front + 1);
+  }
+
   #restOf(at: number): Rest {
-    return at === 0 ? this.input : this.#stages[at - 1].next();
+    if (at === 0) return this.input;
+    const before = this.#stages[at - 1];
+    return before instanceof PutAway ? before.next : before.next();
+  }
+
+  #open(at: number): Stage {
+    const stage = this.#stages[at];
+    if (!(stage instanceof PutAway)) return stage;
+    const made = make(stage.plan, stage.rest);
+    made.resume(stage);
+    return (this.#stages[at] = made);
   }
 
   #replace(at: number, stage: Stage): Stage {
-    this.#stages[at]?.dispose();
+    const old = this.#stages[at];
+    if (old instanceof Stage) old.dispose();
     this.#stages[at] = stage;
     this.#front = at;
+    this.#stages.slice(0, Math.max(0, at - kept)).forEach((before, i) => {
+      if (before instanceof Stage && before.done) this.#stages[i] = before.putAway();
+    });
     return stage;
   }
 }

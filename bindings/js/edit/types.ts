@@ -150,12 +150,13 @@ export interface EditRun extends EditStep {
   converged: boolean;
 }
 
-/** What is to be seen of a limb: see `labels`, `parameters`, `reference` and `target` of `Sketch`. */
+/** What is to be seen of a limb: see `labels`, `parameters`, `reference`, `target` and `refinement` of `Sketch`. */
 export interface SketchView {
   labels: Uint32Array;
   parameters: Float32Array;
   reference: Float64Array;
   target: Float64Array;
+  refinement: Refinement | undefined;
 }
 
 export interface EditResult {
