@@ -9,7 +9,7 @@ import { remesh } from "../../web-demo/shapes/remesh.mjs";
 import { ball, tube } from "../../web-demo/shapes/parts.mjs";
 import { History } from "../../web-demo/src/edit/history.ts";
 import { asTransform, atRest, bestMotion, quaternionOf, rotated, rotationVector, type Vec3 } from "../../web-demo/src/edit/motion.ts";
-import { shared } from "../../web-demo/src/edit/share.ts";
+import { shared } from "../../bindings/js/edit/same.ts";
 import { rewriteObj } from "../../web-demo/src/files/read_obj.ts";
 import { bumpyPlane } from "../../web-demo/src/shapes/bumpy_plane.ts";
 import { decodeMesh, type PlainMesh } from "../../web-demo/src/shapes/decode.ts";

@@ -55,7 +55,7 @@ export function installHook(app: App): void {
       const { sketched } = present;
       if (!sketched) return undefined;
       const points = Array.from({ length: sketched.target.length / 3 }, (_, i) => new Vector3().fromArray(sketched.target, 3 * i));
-      return { labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.s)], curve: points.map(onPage) };
+      return { labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.parameters)], curve: points.map(onPage) };
     },
     motion: () => present.motion,
     selected: () => present.selected,

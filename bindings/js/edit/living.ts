@@ -162,7 +162,7 @@ export class Edit {
   #standing(): EditStep {
     const { last } = this.#live;
     const { total = 0, ...terms } = last?.energy() ?? {};
-    return { step: Math.max(0, this.#asked.plans.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0 };
+    return { step: Math.max(0, this.#asked.plans.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0, entry: -1, done: 0 };
   }
 
   /** Runs to the end and lets the event loop turn after each iteration. Errors: as `run`, aborted. */

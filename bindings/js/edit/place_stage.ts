@@ -3,14 +3,13 @@
 import type { FloatArray } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
-import type { Step } from "../deform/deformer.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { rows } from "./growth.js";
 import type { PlacePlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, placed, sameGoal } from "./roles.js";
 import { same } from "./same.js";
-import { Stage, type StageMoment } from "./stage.js";
+import { Stage, type StageMoment, type StageStep } from "./stage.js";
 import type { StepReport } from "./types.js";
 
 export class PlaceStage extends Stage<PlacePlan> {
@@ -45,7 +44,7 @@ export class PlaceStage extends Stage<PlacePlan> {
     return this.#done;
   }
 
-  advance(): Step {
+  advance(): StageStep {
     const begin = performance.now();
     const { positions, dimension } = this.rest;
     const result = positions.slice();
@@ -60,7 +59,7 @@ export class PlaceStage extends Stage<PlacePlan> {
     this.#done = true;
     this.#ms = performance.now() - begin;
     this.changed();
-    return { iteration: 1, energy: 0, terms: {}, converged: true, accepted: true, milliseconds: this.#ms };
+    return { iteration: 1, energy: 0, terms: {}, converged: true, accepted: true, milliseconds: this.#ms, entry: -1, done: 1 };
   }
 
   reset(): void {

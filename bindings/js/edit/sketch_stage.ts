@@ -11,7 +11,7 @@ import type { PosePlan, SketchPlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 import { copied } from "./solving.js";
-import { Stage, type StageMoment } from "./stage.js";
+import { Stage, type StageMoment, type StageStep } from "./stage.js";
 import type { SketchView, StepReport } from "./types.js";
 
 /** What chooses a limb; the rest of a step poses it. */
@@ -26,7 +26,6 @@ export class SketchStage extends Stage<SketchPlan> {
   #posed: SketchPlan | undefined;
   #setupMs: number;
   #poseMs = 0;
-  readonly #past = { factorizations: 0, analyses: 0 };
 
   constructor(plan: SketchPlan, rest: Rest) {
     super(plan, rest);
@@ -69,8 +68,7 @@ export class SketchStage extends Stage<SketchPlan> {
   }
 
   #pastOf(plan: SketchPlan): void {
-    this.#past.factorizations += systemsOf(plan);
-    this.#past.analyses += systemsOf(plan);
+    this.inherit({ factorizations: systemsOf(plan), analyses: systemsOf(plan) });
   }
 
   get #shown(): boolean {
@@ -81,10 +79,10 @@ export class SketchStage extends Stage<SketchPlan> {
     return this.#shown && (this.#finisher?.solving.done ?? true);
   }
 
-  advance(): Step {
+  advance(): StageStep {
     const step = this.#shown ? this.#finisher!.solving.advance() : this.#show();
     this.changed();
-    return step;
+    return { ...step, entry: -1, done: this.#finisher?.solving.progress.at(-1)?.iterations.length ?? 1 };
   }
 
   /** Poses the limb. Errors: it is as before. */
@@ -167,7 +165,7 @@ export class SketchStage extends Stage<SketchPlan> {
     const { added } = this;
     return {
       method: "sketch", unknowns: smooth ? region : 0,
-      factorizations: this.#past.factorizations + systems, analyses: this.#past.analyses + systems, setupMs: this.#setupMs,
+      factorizations: this.past.factorizations + systems, analyses: this.past.analyses + systems, setupMs: this.#setupMs,
       start: 0, iterations: this.#shown ? [{ energy: 0, ms: this.#poseMs }] : [], converged: this.#shown, energy: { total: 0 },
       ...(added ? { added: added.parents.length / 2 } : {}),
       ...(this.#finisher ? { finish: this.#finisher.report() } : {}),

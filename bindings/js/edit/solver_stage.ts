@@ -2,7 +2,7 @@
 
 import type { FloatArray } from "../boundary/check.js";
 import type { State } from "../boundary/state.js";
-import { Deformer, drive, type Step } from "../deform/deformer.js";
+import { Deformer, drive } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
 import type { Options } from "../methods/index.js";
 import type { Goal, SolverPlan } from "./plan.js";
@@ -10,7 +10,7 @@ import type { Rest } from "./rest.js";
 import { checkedRoles, reach, type Roles, sameGoal } from "./roles.js";
 import { same } from "./same.js";
 import { copied, type Phase, solvedReport, Solving } from "./solving.js";
-import { Stage, type StageMoment } from "./stage.js";
+import { Stage, type StageMoment, type StageStep } from "./stage.js";
 import type { StepReport } from "./types.js";
 
 type Given = Readonly<Record<string, unknown>>;
@@ -94,7 +94,6 @@ export class SolverStage extends Stage<SolverPlan> {
   /** Whether the model is as the plan has it; not after an error half way. */
   #sound = true;
   #setupMs: number;
-  readonly #past = { factorizations: 0, analyses: 0 };
 
   constructor(plan: SolverPlan, rest: Rest) {
     super(plan, rest);
@@ -142,9 +141,7 @@ export class SolverStage extends Stage<SolverPlan> {
 
   #rebuild(plan: SolverPlan, rest: Rest, roles: Roles): void {
     const model = Model.build(plan, rest, roles);
-    const { factorizations, analyses } = this.#model.deformer.counters();
-    this.#past.factorizations += factorizations;
-    this.#past.analyses += analyses;
+    this.inherit(this.#model.deformer.counters());
     this.#model.deformer.dispose();
     this.#model = model;
     this.#sound = true;
@@ -172,10 +169,11 @@ export class SolverStage extends Stage<SolverPlan> {
     return this.#solving.done;
   }
 
-  advance(): Step {
+  advance(): StageStep {
     const step = this.#solving.advance();
     this.changed();
-    return step;
+    const { progress } = this.#solving;
+    return { ...step, entry: progress.length - 2, done: progress[progress.length - 1].iterations.length };
   }
 
   reset(): void {
@@ -203,7 +201,7 @@ export class SolverStage extends Stage<SolverPlan> {
 
   report(): StepReport {
     const [main, ...drag] = this.#solving.progress;
-    const report = solvedReport(this.#solving, main, this.#setupMs, this.#past);
+    const report = solvedReport(this.#solving, main, this.#setupMs, this.past);
     const costs = drag.map(({ factorizations, analyses, iterations }) => ({ factorizations, analyses, iterations: [...iterations] }));
     return costs.length > 0 ? { ...report, drag: costs } : report;
   }

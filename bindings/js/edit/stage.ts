@@ -23,11 +23,22 @@ export interface StageMoment {
   state?: State;
 }
 
+/** One iteration, and of what. */
+export interface StageStep extends Step {
+  /** The entry of the step's drag, from 0; -1: the step itself. */
+  entry: number;
+  /** Accepted iterations of it so far. */
+  done: number;
+}
+
 export abstract class Stage<P extends StepPlan = StepPlan> {
   #next: Rest | undefined;
   #saved: StageMoment | undefined;
   /** Whether `#saved` is of now. */
   #stands = false;
+
+  /** What models that stood here before have cost. */
+  protected readonly past = { factorizations: 0, analyses: 0 };
 
   /** What it stands for and over; both change in `prepare` alone. */
   constructor(protected plan: P, protected rest: Rest) {}
@@ -39,7 +50,7 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   /** Nothing is left to do. */
   abstract readonly done: boolean;
   /** One iteration. Errors: the result is then as before. */
-  abstract advance(): Step;
+  abstract advance(): StageStep;
   /** Back to rest; what is built stays where that changes nothing. */
   abstract reset(): void;
 
@@ -127,6 +138,12 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
     }
     this.bringBack(plan, rest, moment);
     this.changed();
+  }
+
+  /** Goes on counting from here. */
+  inherit({ factorizations, analyses }: Pick<StepReport, "factorizations" | "analyses">): void {
+    this.past.factorizations += factorizations;
+    this.past.analyses += analyses;
   }
 
   /** Comes back from where `PutAway` kept it. */

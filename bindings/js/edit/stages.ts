@@ -52,7 +52,7 @@ export class Stages {
     const rest = this.#restOf(at);
     const old = this.#stages[at];
     if (old?.isAt(plan, rest)) return { stage: old, changed: false };
-    const standing = old && this.#open(at);
+    const standing = old instanceof PutAway && old.rest !== rest ? undefined : old && this.#open(at);
     if (!standing?.carries(plan)) return { stage: this.#replace(at, make(plan, rest)), changed: true };
     const changed = standing.prepare(plan, rest);
     if (changed) this.#front = at;
@@ -93,7 +93,7 @@ export class Stages {
   }
 
   reset(): void {
-    this.#stages.forEach((_, at) => this.#open(at).reset());
+    if (this.#stages.length > 0) this.#open(0).reset(); // which gives those after it another rest shape
     this.#front = Math.min(this.#front, 0);
   }
 
@@ -117,6 +117,7 @@ export class Stages {
 
   #replace(at: number, stage: Stage): Stage {
     const old = this.#stages[at];
+    if (old instanceof PutAway) stage.inherit(old.report);
     if (old instanceof Stage) old.dispose();
     this.#stages[at] = stage;
     this.#front = at;

@@ -141,6 +141,10 @@ export interface SettleOptions {
 /** One iteration of the step at index `step`. */
 export interface EditStep extends Step {
   step: number;
+  /** The entry of the step's drag, from 0; -1: the step itself. */
+  entry: number;
+  /** Accepted iterations of it so far: what its `iterations` are where a session is written down. */
+  done: number;
 }
 
 /** The last iteration of a run, and how many there were. */

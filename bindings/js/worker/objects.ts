@@ -9,7 +9,6 @@ import type { Handle } from "../deform/handle.js";
 import type { Sketch } from "../deform/sketch.js";
 import type { Edit } from "../edit/living.js";
 import { shared } from "../edit/same.js";
-import type { EditMoment } from "../edit/types.js";
 import type { Files } from "../io/files.js";
 import type { ShapeFile, WritableShape } from "../io/shape_file.js";
 import type { DeformerOptions, MethodName } from "../methods/index.js";
@@ -185,7 +184,7 @@ export class WorkerSketch extends remote("Sketch") {
 export interface WorkerEdit extends Seen<Edit, "Edit"> {}
 export class WorkerEdit extends remote("Edit") {
   readonly shape: WorkerShape;
-  #moment: EditMoment | undefined;
+  readonly #last: Record<string, unknown> = {};
 
   /** @internal */
   constructor(line: Line, reference: Reference, { args }: Origin) {
@@ -193,9 +192,9 @@ export class WorkerEdit extends remote("Edit") {
     this.shape = args[0] as WorkerShape;
   }
 
-  /** Moments share what has not changed between them on this side, too. */
+  /** Moments share what has not changed between them on this side, too; so does what is to be seen of a limb. */
   protected override received(method: string, value: unknown): unknown {
-    return method === "moment" ? (this.#moment = shared(this.#moment, value as EditMoment)) : value;
+    return ["moment", "sketch"].includes(method) ? (this.#last[method] = shared(this.#last[method], value)) : value;
   }
 }
 

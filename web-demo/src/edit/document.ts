@@ -3,7 +3,8 @@ import type { Rider } from "../shapes/riders.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
 import { defaultOptions, hasLoad, methodOf, methods, scriptOptions, type Options } from "../methods.ts";
 import { asTransform, atRest, centroid, inPlane, isAtRest, type Motion, type Vec3 } from "./motion.ts";
-import { isPosed, sketchStep, type SketchDoc } from "./sketch_doc.ts";
+import type { DocumentStep, EditDocument, EditRun } from "../solver/pliant.ts";
+import { chosenStep, isPosed, sketchStep, type SketchDoc } from "./sketch_doc.ts";
 
 export interface HandleDoc {
   readonly id: number;
@@ -18,13 +19,11 @@ export interface HandleDoc {
 }
 
 /** What changed before some iterations of the solver. */
-export interface Change {
+export interface DragEntry {
   readonly motions: ReadonlyMap<number, Motion>;
   /** All options, where some changed. */
   readonly options?: Options | undefined;
-}
-
-export interface DragEntry extends Change {
+  /** As many as there were; while it is under way, as many as there may be. */
   readonly iterations: number;
 }
 
@@ -32,7 +31,13 @@ export interface DragEntry extends Change {
 export interface Grab {
   readonly start: ReadonlyMap<number, Motion>;
   readonly options: Options;
+  /** Iterations of the step's own solve so far, and whether it came to rest; `cut`: it ended with so many, because a handle was moved. */
+  readonly solved: number;
+  readonly settled: boolean;
+  readonly cut?: number;
   readonly entries: readonly DragEntry[];
+  /** What the last entry left. */
+  readonly now: { readonly motions: ReadonlyMap<number, Motion>; readonly options: Options };
 }
 
 /** Finished steps, and the present one over their result: a sketch, or handles and a fixed region. */
@@ -40,7 +45,7 @@ export interface Doc {
   /** As it was opened. */
   readonly opened: ShapeData;
   /** Finished steps of the edit script. */
-  readonly done: readonly object[];
+  readonly done: readonly DocumentStep[];
   /** What they made of it: the rest shape of the present step. */
   readonly shape: ShapeData;
   readonly sketch: SketchDoc | undefined;
@@ -60,8 +65,10 @@ export const motionsOf = (handles: readonly HandleDoc[]): Map<number, Motion> =>
   new Map(handles.map((h) => [h.id, h.motion]));
 
 /** A grab that starts from the handles as they are. */
-export const freshGrab = (handles: readonly HandleDoc[], options: Options): Grab =>
-  ({ start: motionsOf(handles), options, entries: [] });
+export function freshGrab(handles: readonly HandleDoc[], options: Options): Grab {
+  const start = motionsOf(handles);
+  return { start, options, solved: 0, settled: false, entries: [], now: { motions: start, options } };
+}
 
 /** The same document with other constraints; the record of the session starts anew. */
 export function withConstraints(doc: Doc, change: Partial<Pick<Doc, "fixed" | "handles">>): Doc {
@@ -70,7 +77,7 @@ export function withConstraints(doc: Doc, change: Partial<Pick<Doc, "fixed" | "h
 }
 
 /** The next step: over another rest shape, with the same regions, everything at rest in it. */
-export function onTop(doc: Doc, shape: ShapeData, steps: readonly object[]): Doc {
+export function onTop(doc: Doc, shape: ShapeData, steps: readonly DocumentStep[]): Doc {
   const handles = doc.handles.filter((h) => !h.held).map((h) => makeHandle(shape, h.id, h.name, h.vertices));
   const grab = freshGrab(handles, doc.options);
   return { ...doc, shape, done: [...doc.done, ...steps], handles, grab, sketch: undefined };
@@ -117,22 +124,42 @@ export function startingDoc(shape: ShapeData, like?: Pick<Doc, "method" | "optio
   };
 }
 
-/** One more run of the solver; runs with nothing changed are one entry. */
-export function recorded(grab: Grab, change: Change, iterations: number): Grab {
-  const last = grab.entries.at(-1);
-  const changed = change.motions.size > 0 || change.options;
-  if (!changed && last) {
-    const longer = { ...last, iterations: last.iterations + iterations };
-    return { ...grab, entries: [...grab.entries.slice(0, -1), longer] };
-  }
-  if (!changed) return grab; // settling after the grab itself: the step's own solve
-  return { ...grab, entries: [...grab.entries, { ...change, iterations }] };
+/** Iterations after the last change at which a shape that never comes to rest is left alone. */
+const patience = 300;
+
+/** With all that differs from what the grab says in an entry of its own, which is then under way. */
+export function withChanges(doc: Doc): Doc {
+  const { grab, handles, options } = doc;
+  const motions = new Map(handles.filter((h) => !h.held && grab.now.motions.get(h.id) !== h.motion).map((h) => [h.id, h.motion]));
+  const otherOptions = grab.now.options !== options;
+  if (doc.sketch || (motions.size === 0 && !otherOptions)) return doc;
+  const entry: DragEntry = { motions, iterations: patience, ...(otherOptions ? { options } : {}) };
+  const cut = grab.entries.length === 0 && !grab.settled ? { cut: Math.max(1, grab.solved) } : {};
+  const now = { motions: new Map([...grab.now.motions, ...motions]), options };
+  return { ...doc, grab: { ...grab, ...cut, now, entries: [...grab.entries, entry] } };
+}
+
+/** After a run: how many iterations what is under way has had. */
+export function withRun(doc: Doc, { step, iterations, entry, done, converged }: EditRun): Doc {
+  const { grab } = doc;
+  const mine = iterations > 0 && step === doc.done.length;
+  if (doc.sketch) return doc;
+  if (grab.entries.length === 0) return { ...doc, grab: { ...grab, solved: mine ? done : grab.solved, settled: converged } };
+  if (!mine || entry < 0) return doc;
+  const entries = grab.entries.map((e, i) => (i === entry ? { ...e, iterations: Math.max(1, done) } : e));
+  return { ...doc, grab: { ...grab, entries } };
+}
+
+/** Goes on with what is under way. */
+function open(entries: readonly DragEntry[]): readonly DragEntry[] {
+  const last = entries.at(-1);
+  return last ? [...entries.slice(0, -1), { ...last, iterations: last.iterations + patience }] : entries;
 }
 
 const triples = (flat: ArrayLike<number>, dimension: 2 | 3 = 3): number[][] =>
   Array.from({ length: flat.length / 3 }, (_, i) => Array.from({ length: dimension }, (_, k) => flat[3 * i + k]!));
 
-const solve = { iterations: 300, tolerance: 1e-6 };
+const tolerance = 1e-6;
 
 const region = (fixed: Uint32Array) => (fixed.length > 0 ? { fixed: [{ vertices: [...fixed] }] } : {});
 
@@ -142,52 +169,99 @@ function changedOptions(doc: Doc, before: Options, after: Options): object {
   return Object.fromEntries(Object.entries(b).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(a[key])));
 }
 
-function grabStep(doc: Doc) {
+type Remembered = { handles?: unknown; fixed?: unknown };
+/** Of grabs: what stays while they last is one object, which nobody has to look at again. */
+const remembered = new WeakMap<Grab["start"], Remembered>();
+const entrySteps = new WeakMap<DragEntry, object>();
+
+function regionsOf(doc: Doc): Remembered {
+  const known = remembered.get(doc.grab.start);
+  if (known) return known;
   const { dimension } = doc.shape;
-  const byId = new Map(doc.handles.map((h) => [h.id, h]));
-  let options = doc.grab.options;
-  const entry = (e: DragEntry) => {
-    const changed = e.options ? { options: changedOptions(doc, options, e.options) } : {};
-    options = e.options ?? options;
-    const handles = [...e.motions].map(([id, motion]) => {
-      const { name, center } = byId.get(id)!;
-      return { name, move: asTransform(motion, center, dimension) };
-    });
-    return { ...(handles.length > 0 ? { handles } : {}), ...changed, iterations: e.iterations };
-  };
   const handles = doc.handles.map((h) => ({
     name: h.name,
     select: { vertices: [...h.vertices] },
     ...(h.held ? { targets: triples(h.held, dimension) } : { move: asTransform(doc.grab.start.get(h.id) ?? atRest, h.center, dimension) }),
   }));
+  const regions = { ...region(doc.fixed), ...(handles.length > 0 ? { handles } : {}) };
+  remembered.set(doc.grab.start, regions);
+  return regions;
+}
+
+function entryStep(doc: Doc, entry: DragEntry, before: Options): object {
+  const known = entrySteps.get(entry);
+  if (known) return known;
+  const byId = new Map(doc.handles.map((h) => [h.id, h]));
+  const handles = [...entry.motions].map(([id, motion]) => {
+    const { name, center } = byId.get(id)!;
+    return { name, move: asTransform(motion, center, doc.shape.dimension) };
+  });
+  const options = entry.options ? { options: changedOptions(doc, before, entry.options) } : {};
+  const step = { ...(handles.length > 0 ? { handles } : {}), ...options, iterations: entry.iterations };
+  entrySteps.set(entry, step);
+  return step;
+}
+
+function grabStep(doc: Doc, entries: readonly DragEntry[], iterations: number): DocumentStep {
+  let { options } = doc.grab;
+  const drag = entries.map((entry) => {
+    const step = entryStep(doc, entry, options);
+    options = entry.options ?? options;
+    return step;
+  });
   return {
     method: doc.method,
     options: scriptOptions(doc.method, doc.grab.options, doc.shape),
-    ...region(doc.fixed),
-    ...(handles.length > 0 ? { handles } : {}),
-    solve,
-    ...(doc.grab.entries.length > 0 ? { drag: doc.grab.entries.map(entry) } : {}),
-  };
+    ...regionsOf(doc),
+    solve: { iterations, tolerance },
+    ...(drag.length > 0 ? { drag } : {}),
+  } as DocumentStep;
 }
 
-/** The present step of the edit script; undefined: it changes nothing. */
-export function presentStep(doc: Doc): object | undefined {
+/** The present step as it stands, without what is still to come of it; undefined: it changes nothing. */
+export function finishedStep(doc: Doc): DocumentStep | undefined {
   if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch) : undefined;
-  return hasMoved(doc) || hasLoad(doc.method, doc.options) ? grabStep(doc) : undefined;
+  const { entries, solved, settled, cut = settled ? patience : Math.max(1, solved) } = doc.grab;
+  return asksForSomething(doc) ? grabStep(doc, entries, cut) : undefined;
 }
 
-/** Loose parts are put where they ride, the rest stays; `positions` are those after it. */
-export function riderStep(riders: readonly Rider[], positions: ArrayLike<number>) {
+const asksForSomething = (doc: Doc) => hasMoved(doc) || hasLoad(doc.method, doc.grab.options) || hasLoad(doc.method, doc.options);
+
+/** Loose parts are put where they ride; `positions` are those after it. */
+export function placeStep(riders: readonly Rider[], positions: ArrayLike<number>): DocumentStep {
   const vertices = riders.flatMap((rider) => [...rider.vertices]).sort((a, b) => a - b);
   const targets = vertices.map((v) => [positions[3 * v]!, positions[3 * v + 1]!, positions[3 * v + 2]!]);
-  const select = { vertices };
-  return { method: "arap", fixed: [{ not: select }], handles: [{ name: "riders", select, targets }], solve: { iterations: 1 } };
+  return { method: "place", parts: [{ name: "loose parts", select: { vertices }, targets }] };
 }
 
+const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({ format: "pliant-edit", version: 1, steps, seed: 1 });
+const documents = new WeakMap<Doc, EditDocument>();
+
+/** What the living edit is to carry out; undefined: the shape is at rest. The same document gives the same object. */
+export function liveDocument(doc: Doc): EditDocument | undefined {
+  const known = documents.get(doc);
+  if (known) return known;
+  const present = liveStep(doc);
+  if (!present && doc.done.length === 0) return undefined;
+  const document = documentOf(present ? [...doc.done, present] : doc.done);
+  documents.set(doc, document);
+  return document;
+}
+
+function liveStep(doc: Doc): DocumentStep | undefined {
+  if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch) : chosenStep(doc.sketch);
+  const { entries, cut = patience } = doc.grab;
+  return doc.handles.length > 0 || hasLoad(doc.method, doc.grab.options) ? grabStep(doc, open(entries), cut) : undefined;
+}
+
+/** A document that ends as the present stands: see `finishedStep`. */
+export const finishedDocument = (doc: Doc, step: DocumentStep): EditDocument => documentOf([...doc.done, step]);
+
 /** The document as an edit script (contract, section 3), with steps that follow the present one. */
-export function editScript(doc: Doc, after: readonly object[] = []) {
-  const present = presentStep(doc) ?? (doc.done.length === 0 ? grabStep(doc) : undefined);
-  return { format: "pliant-edit", version: 1, steps: present ? [...doc.done, present, ...after] : doc.done, seed: 1 };
+export function editScript(doc: Doc, after: readonly DocumentStep[] = []): EditDocument {
+  const idle = doc.done.length === 0 && !doc.sketch;
+  const present = doc.sketch ? finishedStep(doc) : asksForSomething(doc) || idle ? grabStep(doc, doc.grab.entries, patience) : undefined;
+  return documentOf(present ? [...doc.done, present, ...after] : doc.done);
 }
 
 export const hasMoved = (doc: Doc): boolean =>

@@ -1,23 +1,23 @@
 // The present: a document, the solver that carries it out, and what of it is on the screen, kept in step.
 import type { Options } from "../methods.ts";
 import { Meter, type Measures } from "../shapes/measure.ts";
-import { normalsOf } from "../shapes/normals.ts";
 import { refinedShape } from "../shapes/refined.ts";
-import type { ShapeData } from "../shapes/shape.ts";
+import { vertexCount, type ShapeData } from "../shapes/shape.ts";
 import { topologyOf, type Topology } from "../shapes/topology.ts";
-import { SolverClient, type Frame } from "../solver/client.ts";
-import type { ShapeReport, State, StepReport } from "../solver/pliant.ts";
-import type { SketchFrame } from "../solver/sketch_client.ts";
-import { Calm } from "./calm.ts";
-import { editScript, onTop, presentStep, recorded, withConstraints, withMotion, type Change, type Doc, type HandleDoc } from "./document.ts";
+import { EditClient, type Picture } from "../solver/edit_client.ts";
+import type { EditMoment, EditRun, ShapeReport, SketchView, State } from "../solver/pliant.ts";
+import {
+  editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withMotion, withRun, type Doc, type HandleDoc,
+} from "./document.ts";
+import { LooseParts } from "./loose_parts.ts";
 import type { Motion } from "./motion.ts";
-import { Riding } from "./riding.ts";
+import { RestDetector } from "./rest_detector.ts";
 import { isPosed, posed, type PoseChange, type SketchDoc } from "./sketch_doc.ts";
 
-/** A moment to go back to. The deformation is absent at rest and until the solver has told it. */
+/** A moment to go back to. The edit's is absent at rest and until it has told it. */
 export interface Moment {
   doc: Doc;
-  deformation: State | undefined;
+  edit: EditMoment | undefined;
 }
 
 export interface PresentEvents {
@@ -32,16 +32,16 @@ export interface PresentEvents {
 }
 
 export class Present {
-  private solver!: SolverClient;
+  private client!: EditClient;
   private meter!: Meter;
-  /** What the solver's deformer was built from. */
-  private built: Pick<Doc, "shape" | "method" | "options"> | undefined;
-  private readonly calm = new Calm();
-  private readonly riding = new Riding();
+  private readonly restDetector = new RestDetector();
+  private readonly looseParts = new LooseParts();
+  /** A pose that is shown and not in the document, yet. */
+  private previewed: SketchDoc | undefined;
 
   doc!: Doc;
   /** What the limb under strokes looks like; absent while handles work. */
-  sketched: SketchFrame | undefined;
+  sketched: SketchView | undefined;
   /** The shape on the screen: the document's, or with what refinement added. */
   shown!: ShapeData;
   topology!: Topology;
@@ -49,7 +49,8 @@ export class Present {
   positions!: Float32Array;
   normals!: Float32Array;
   state: State | undefined;
-  step: StepReport | undefined;
+  /** The last iteration. */
+  step: EditRun | undefined;
   selected: number | undefined;
   /** Something takes longer than a frame. */
   busy = false;
@@ -58,12 +59,13 @@ export class Present {
 
   static async start(doc: Doc, events: PresentEvents): Promise<Present> {
     const present = new Present(events);
-    present.solver = await SolverClient.start({
-      frame: (frame, change, iterations) => present.show(frame, change, iterations),
+    present.client = await EditClient.start({
+      document: () => present.document(),
+      frame: (picture) => present.show(picture),
       settled: () => events.settled(),
       failed: (error) => events.problem(error),
     });
-    await present.enter({ doc, deformation: undefined });
+    await present.enter({ doc, edit: undefined });
     return present;
   }
 
@@ -88,103 +90,80 @@ export class Present {
   }
 
   /** Whether the shape is at rest, on its way, or goes to and fro. */
-  get motion(): ReturnType<Calm["verdict"]> {
-    return this.doc.sketch || !this.step ? "settled" : this.calm.verdict();
+  get motion(): ReturnType<RestDetector["verdict"]> {
+    return this.doc.sketch || !this.step ? "settled" : this.restDetector.verdict();
   }
 
   /** What was done as an edit script: replaying it gives the shape on the screen. */
   script(): ReturnType<typeof editScript> {
-    return editScript(this.doc, this.riding.steps(this.doc, this.positions.slice()));
+    return editScript(this.doc, this.looseParts.steps(this.doc, this.positions.slice()));
   }
 
-  /** The deformation as it is now. */
-  save(): Promise<State> {
-    return this.solver.save();
+  /** How it is now, to come back to. */
+  async save(): Promise<Moment> {
+    const [edit, doc] = await this.client.save(() => this.doc);
+    return { doc, edit };
   }
 
   // -- Another moment -----------------------------------------------------------------------------
 
-  /** Makes a moment the present: rebuilds what differs, constrains, restores, solves on. */
-  async enter({ doc, deformation }: Moment): Promise<void> {
+  /** Makes a moment the present: what differs is carried out, and solved on. */
+  async enter({ doc, edit }: Moment): Promise<void> {
     const old = this.doc as Doc | undefined;
-    const report = await this.solver.take(doc.shape);
+    const report = await this.client.open(doc.opened);
     if (doc.shape !== old?.shape) this.takeShape(doc, report);
     this.doc = doc;
-    this.step = this.state = this.sketched = undefined;
-    this.calm.reset();
+    this.step = this.state = this.sketched = this.previewed = undefined;
+    this.restDetector.reset();
     this.shown = doc.shape;
     if (!doc.handles.some((h) => h.id === this.selected && !h.held)) this.selected = doc.handles.find((h) => !h.held)?.id;
-    if (doc.sketch) await this.enterSketch(doc.sketch);
-    else await this.enterGrab(doc, deformation);
+    this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), !edit && !doc.sketch && doc.done.length === 0));
+    if (doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch)) await this.finishSketch();
     this.events.change();
     this.events.frame();
-    if (!doc.sketch) this.solver.wake();
+    if (!doc.sketch) this.client.wake();
   }
 
   private takeShape({ opened, shape }: Doc, report: ShapeReport & { diagonal: number }): void {
     const first = opened !== (this.doc as Doc | undefined)?.opened;
-    this.report = report;
+    this.report = { ...report, vertices: vertexCount(shape), triangles: shape.triangles.length / 3 };
     this.topology = topologyOf(shape);
-    this.riding.take(shape, this.topology);
+    this.looseParts.take(shape, this.topology);
     if (!first && this.meter) return;
     const closed = opened.triangles.length > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;
     this.meter = new Meter(opened, shape === opened ? this.topology : topologyOf(opened), closed);
   }
 
-  private async enterSketch(sketch: SketchDoc): Promise<void> {
-    this.showSketch(await this.solver.sketch.apply(sketch), false);
-    if (sketch.finish === "" || !isPosed(sketch)) return;
+  private async finishSketch(): Promise<void> {
     this.busy = true;
     this.events.change();
     try {
-      this.positions = Float32Array.from(await this.solver.sketch.finished(sketch));
+      this.look(await this.client.finish(liveDocument(this.doc)!));
     } finally {
       this.busy = false;
     }
-    this.findRiders();
-    this.riding.carry(this.doc, this.positions);
-    this.normals = normalsOf(this.positions, this.doc.shape.triangles, this.topology);
   }
 
-  private async enterGrab(doc: Doc, deformation: State | undefined): Promise<void> {
-    const fresh = await this.prepare(doc);
-    if (!fresh && !deformation) await this.solver.restore(undefined);
-    await this.solver.constrain(doc.fixed, doc.handles);
-    if (deformation) await this.solver.restore(deformation);
-    this.findRiders();
-    Object.assign(this, await this.solver.look());
-    this.riding.carry(this.doc, this.positions, this.normals);
-  }
-
-  /** A deformer for the document; whether it is a new one. */
-  private async prepare({ shape, method, options }: Doc): Promise<boolean> {
-    const { built } = this;
-    if (this.solver.ready && built?.shape === shape && built.method === method && built.options === options) return false;
-    await this.solver.build(method, options);
-    this.built = { shape, method, options };
-    return true;
+  /** What is to be carried out now. */
+  private document(): ReturnType<typeof liveDocument> {
+    if (this.previewed) return liveDocument({ ...this.doc, sketch: this.previewed });
+    this.doc = withChanges(this.doc);
+    return liveDocument(this.doc);
   }
 
   private findRiders(): void {
-    this.riding.find(this.doc, this.sketched?.labels);
+    this.looseParts.find(this.doc, this.sketched?.labels);
   }
 
   /** The document with the present step among the finished ones, if it did anything. */
   async finished(): Promise<Doc> {
-    await this.solver.halt();
+    await this.client.halt();
     const { doc } = this;
-    const step = presentStep(doc);
+    const step = finishedStep(doc);
     if (!step || (!doc.sketch && !this.sketchable)) return { ...doc, sketch: undefined };
-    const exact = await this.exact();
-    const steps = [step, ...this.riding.steps(doc, exact)];
+    const exact = await this.client.exact(finishedDocument(doc, step), vertexCount(this.shown));
+    const steps = [step, ...this.looseParts.steps(doc, exact)];
     return onTop(doc, { ...this.shown, positions: Float32Array.from(exact), exact }, steps);
-  }
-
-  private async exact(): Promise<Float64Array> {
-    const { sketch } = this.doc;
-    if (!sketch) return this.solver.exact();
-    if (sketch.finish !== "") return this.solver.sketch.finished(sketch);
-    return this.solver.sketch.exact(this.shown.positions.length / 3);
   }
 
   // -- What changes in it while it stays ------------------------------------------------------------
@@ -192,81 +171,69 @@ export class Present {
   /** Other values of options that can change while the shape moves. */
   setOptions(options: Options): void {
     this.doc = { ...this.doc, options };
-    if (this.built) this.built = { ...this.built, options };
-    this.solver.setOptions(options);
+    this.client.wake();
     this.events.change();
   }
 
   moveHandle(id: number, motion: Motion): void {
     this.doc = withMotion(this.doc, id, motion);
-    this.solver.move(id, this.handle(id)!.motion);
+    this.client.wake();
     this.events.change();
   }
 
-  /** Other constraints, for the document; the solver has them after `constrain`. */
+  /** Other constraints; the edit has them with the next frame. */
   setConstraints(change: Partial<Pick<Doc, "fixed" | "handles">>): void {
     this.doc = withConstraints(this.doc, change);
     this.findRiders();
     this.events.change();
-  }
-
-  /** Gives the solver the constraints of the document. */
-  async constrain(): Promise<void> {
-    await this.prepare(this.doc);
-    await this.solver.constrain(this.doc.fixed, this.doc.handles); // a handle may be under way by now
-  }
-
-  /** Solves on. */
-  wake(): void {
-    this.solver.wake();
+    this.client.wake();
   }
 
   /** Shows a pose of the limb; the document stays. */
   preview(change: PoseChange): void {
     if (!this.doc.sketch) return;
-    const sketch = posed({ ...this.doc.sketch, refine: false, finish: "" }, change);
-    this.solver.sketch.preview(sketch, (frame) => this.showSketch(frame), (error) => this.events.problem(error));
+    this.previewed = posed({ ...this.doc.sketch, refine: false, finish: "" }, change);
+    this.client.wake();
   }
 
   // -- The screen -----------------------------------------------------------------------------------
 
-  /** Steps of the solver a frame; 0: as many as there is time for. */
-  setPace(steps: number): void {
-    this.solver.pace = steps;
+  /** Iterations a frame; 0: as many as there is time for. */
+  setPace(iterations: number): void {
+    this.client.pace = iterations;
   }
 
   /** While watched, `state` follows the method's inner state. */
   async watch(on: boolean): Promise<void> {
-    this.solver.watch(on);
-    this.state = undefined;
-    if (on && !this.doc.sketch) this.state = (await this.solver.look()).state;
+    const state = await this.client.watch(on);
+    this.state = this.doc.sketch ? undefined : state;
     this.events.frame();
   }
 
   /** Resolves when the shape is at rest. */
   idle(): Promise<void> {
-    return this.solver.idle();
+    return this.client.idle();
   }
 
-  private showSketch(frame: SketchFrame, tell = true): void {
-    this.sketched = frame;
-    this.shown = refinedShape(this.doc.shape, frame.refinement);
-    Object.assign(this, { positions: frame.positions, normals: frame.normals });
+  /** Takes a picture over. */
+  private look({ positions, normals, sketch, state, run }: Picture): void {
+    const limb = this.doc.sketch ? sketch : undefined;
+    this.sketched = limb;
+    this.shown = refinedShape(this.doc.shape, limb?.refinement);
+    Object.assign(this, { positions, normals, state: limb ? undefined : state });
     this.findRiders();
-    this.riding.carry(this.doc, this.positions, this.normals);
-    if (tell) this.events.frame();
+    this.looseParts.carry(this.doc, this.positions, this.normals);
+    this.doc = withRun(this.doc, run);
   }
 
-  private show(frame: Frame, change: Change, iterations: number): void {
-    if (this.doc.sketch) return; // the last of a run that a stroke has ended
-    const before = this.positions;
-    this.positions = frame.positions;
-    this.normals = frame.normals;
-    this.riding.carry(this.doc, this.positions, this.normals);
-    this.calm.saw(before, this.positions, frame.report.converged);
-    this.state = frame.state;
-    this.step = frame.report;
-    this.doc = { ...this.doc, grab: recorded(this.doc.grab, change, iterations) };
+  private show(picture: Picture): void {
+    const before = this.positions as Float32Array | undefined;
+    this.look(picture);
+    if (!this.doc.sketch) {
+      const { run } = picture;
+      if (before) this.restDetector.saw(before, this.positions, run.converged);
+      this.step = { ...run, milliseconds: run.milliseconds / Math.max(1, run.iterations) };
+    }
     this.events.frame();
   }
 }

@@ -2,21 +2,18 @@
 // read the present.
 import { defaultOptions, methodOf, type Options, type OptionValue } from "../methods.ts";
 import type { ShapeData } from "../shapes/shape.ts";
-import type { State } from "../solver/pliant.ts";
 import { backAtRest, freshGrab, makeHandle, startingDoc, type Doc } from "./document.ts";
 import { History } from "./history.ts";
 import { bestMotion, type Motion } from "./motion.ts";
 import { Present, type Moment, type PresentEvents } from "./present.ts";
-import { shared } from "./share.ts";
 import { newSketch, posed, seenAgain, type Pixel, type PoseChange, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
-import { freshId, heldStill, stillIn, withoutHeld } from "./still.ts";
+import { freshId, heldUnmoved, unmovedIn, withoutHeld } from "./unmoved.ts";
 
 /** `change` also tells of the history; after a `problem` the session stands as before. */
 export type SessionEvents = Omit<PresentEvents, "settled">;
 
 export class Session {
   private work: Promise<unknown> = Promise.resolve();
-  private lastSaved: State | undefined;
   dragging = false;
 
   private constructor(readonly present: Present, private readonly history: History<Moment>, private readonly events: SessionEvents) {}
@@ -25,7 +22,7 @@ export class Session {
     let session: Session | undefined;
     const doc = startingDoc(shape);
     const present = await Present.start(doc, { ...events, settled: () => void session?.rest() });
-    session = new Session(present, new History<Moment>({ doc, deformation: undefined }), events);
+    session = new Session(present, new History<Moment>({ doc, edit: undefined }), events);
     return session;
   }
 
@@ -71,7 +68,7 @@ export class Session {
   private move(next: () => Promise<Doc>, label = ""): Promise<boolean> {
     return this.exclusive(async () => {
       const before = this.history.current;
-      const moment: Moment = { doc: await next(), deformation: undefined };
+      const moment: Moment = { doc: await next(), edit: undefined };
       try {
         await this.present.enter(moment);
       } catch (error) {
@@ -146,24 +143,20 @@ export class Session {
 
   /** The vertices that do not move: fixed at rest, or held where they are. */
   get still(): Uint32Array {
-    return stillIn(this.present.doc);
+    return unmovedIn(this.present.doc);
   }
 
   /** Replaces what does not move; vertices of handles stay with them. What has left its rest is held where it is now. */
   setStill(vertices: Iterable<number>): Promise<boolean> {
     const { doc, positions, report } = this.present;
     if (doc.sketch) return Promise.resolve(false);
-    return this.constrain(heldStill(doc, vertices, positions, 1e-4 * report.diagonal));
+    return this.constrain(heldUnmoved(doc, vertices, positions, 1e-4 * report.diagonal));
   }
 
   private constrain(change: Partial<Pick<Doc, "fixed" | "handles">>): Promise<boolean> {
     this.present.setConstraints(change);
     const { doc } = this.present;
-    return this.exclusive(async () => {
-      await this.present.constrain();
-      await this.commit(doc);
-      this.present.wake();
-    });
+    return this.exclusive(() => this.commit(doc));
   }
 
   // -- What moves handles -------------------------------------------------------------------------
@@ -232,18 +225,17 @@ export class Session {
 
   /** Writes the present into the history, now and again when the shape has come to rest. */
   private async commit(doc: Doc, label = ""): Promise<void> {
-    this.history.push({ doc, deformation: undefined }, label);
+    this.history.push({ doc, edit: undefined }, label);
     await this.remember();
   }
 
   private async remember(): Promise<void> {
     const moment = this.history.current;
-    moment.deformation = this.lastSaved = shared(this.lastSaved, await this.present.save());
+    Object.assign(moment, await this.present.save());
   }
 
   private async rest(): Promise<void> {
     if (this.dragging || this.present.doc.sketch) return;
-    this.history.current.doc = this.present.doc;
     await this.remember();
   }
 }

@@ -1,4 +1,5 @@
 // A limb under two strokes, as the visitor made it: immutable, like the rest of the document.
+import type { DocumentStep } from "../solver/pliant.ts";
 import type { Vec3 } from "./motion.ts";
 
 /** Pixels of the picture the camera makes: origin at the top left, y down. */
@@ -115,19 +116,44 @@ export const scaledFrom = (s: number, factor: number): Knots =>
 
 const solve = { iterations: 300, tolerance: 1e-6 };
 
-/** The step of the edit script (contract, section 3); nothing that is at rest is named. */
-export function sketchStep(sketch: SketchDoc) {
-  const { camera, reference, region, partitions, mirror, target, twist, smooth, refine, morph, finish } = sketch;
+/** Nothing that is at rest is named. */
+function profilesOf(sketch: SketchDoc) {
   const profile = (control: Control) => (atRest(sketch, control) ? {} : { [control]: { profile: profileOf(control, sketch.knots[control]) } });
+  const { twist } = sketch;
   return {
-    method: "sketch", camera, reference,
+    ...(twist !== 0 ? { twist: { degrees: twist }, ...profile("twistSpeed") } : {}),
+    ...profile("scale"), ...profile("turning"),
+  };
+}
+
+function drawingOf({ camera, reference, region, partitions, mirror, smooth }: SketchDoc) {
+  return {
+    method: "sketch" as const, camera, reference,
     ...(region ? { region } : {}),
     ...(partitions.length > 0 ? { partitions } : {}),
     ...(mirror ? { mirror } : {}),
-    ...(target ? { bend: { target } } : {}),
-    ...(twist !== 0 ? { twist: { degrees: twist }, ...profile("twistSpeed") } : {}),
-    ...profile("scale"), ...profile("turning"),
-    smooth, morph,
-    ...(finish !== "" ? { finish: { method: finish, solve } } : { refine }),
+    smooth,
   };
 }
+
+const steps = new WeakMap<SketchDoc, DocumentStep>();
+
+/** The step of the edit script (contract, section 3); the same sketch gives the same object. */
+export function sketchStep(sketch: SketchDoc): DocumentStep {
+  const known = steps.get(sketch);
+  if (known) return known;
+  const { target, unfinished, refine, morph, finish } = sketch;
+  const step = {
+    ...drawingOf(sketch),
+    ...(target ? { bend: { target, ...(unfinished ? { unfinished } : {}) } } : {}),
+    ...profilesOf(sketch),
+    morph,
+    ...(finish !== "" ? { finish: { method: finish, solve } } : { refine }),
+  } as DocumentStep;
+  steps.set(sketch, step);
+  return step;
+}
+
+/** A limb that is chosen and stays at rest. */
+export const chosenStep = (sketch: SketchDoc): DocumentStep =>
+  ({ ...drawingOf(sketch), turning: { profile: [[0, 0], [1, 1]] } }) as DocumentStep;

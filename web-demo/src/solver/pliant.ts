@@ -2,8 +2,7 @@
 import { init, type WorkerPliant } from "pliant/worker";
 
 export type {
-  DeformerOptions, EditScript, ShapeReport, State, Step as StepReport, WorkerDeformer as Deformer, WorkerHandle as Handle, WorkerPliant as Pliant,
-  WorkerShape as Shape, WorkerSketch as Sketch,
+  EditDocument, EditMoment, EditRun, ScriptAnyStep as DocumentStep, ShapeReport, SketchView, State, WorkerEdit, WorkerPliant, WorkerShape,
 } from "pliant/worker";
 
 export const connect = (): Promise<WorkerPliant> => init({ inline: true });

@@ -100,7 +100,7 @@ export class SketchTool implements Tool {
     if (this.mode === "bend") return { kind: "bend" };
     const along = unit(curve[0]!, curve.at(-1)!);
     if (this.mode === "twist") return { kind: "twist", from: sketch.twist, axis: [-along[1], along[0]] };
-    return { kind: "scale", s: frame.s[hit!.vertex] ?? 1, out: outwards(at, curve) };
+    return { kind: "scale", s: frame.parameters[hit!.vertex] ?? 1, out: outwards(at, curve) };
   }
 
   /** What lies under a press, or just beside it. */

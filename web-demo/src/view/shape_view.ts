@@ -5,7 +5,7 @@ import {
 } from "three";
 import type { Doc } from "../edit/document.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
-import type { Limb } from "../solver/sketch_client.ts";
+import type { SketchView } from "../solver/pliant.ts";
 
 type Color = readonly [number, number, number];
 
@@ -101,12 +101,12 @@ export class ShapeView {
   }
 
   /** The limb under strokes from red to blue along it, or nothing; fainter once it has been posed. */
-  paintLimb(limb: Limb | undefined, faint: boolean): void {
-    this.repaint([limb?.labels, limb?.s, faint], false, (tints) => {
+  paintLimb(limb: SketchView | undefined, faint: boolean): void {
+    this.repaint([limb?.labels, limb?.parameters, faint], false, (tints) => {
       if (!limb) return;
       const share = faint ? 70 : 165;
       for (let v = 0; 4 * v < tints.length; v++) {
-        const s = limb.s[v] ?? 0;
+        const s = limb.parameters[v] ?? 0;
         if ((limb.labels[v] ?? 1) > 0) tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, share], 4 * v);
       }
     });

@@ -5,7 +5,7 @@ const memory = 10;
 /** A change below this share of the largest one since the start is none. */
 const quiet = 1e-4;
 
-export class Calm {
+export class RestDetector {
   private last: Float32Array | undefined;
   private turns: boolean[] = [];
   private largest = 0;

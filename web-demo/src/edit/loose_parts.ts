@@ -2,9 +2,10 @@
 import { carry, ridersOf, type Rider } from "../shapes/riders.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import type { Topology } from "../shapes/topology.ts";
-import { riderStep, type Doc } from "./document.ts";
+import { placeStep, type Doc } from "./document.ts";
+import type { DocumentStep } from "../solver/pliant.ts";
 
-export class Riding {
+export class LooseParts {
   private riders: Rider[] = [];
   private free: Rider[] = [];
 
@@ -31,8 +32,8 @@ export class Riding {
   }
 
   /** The same, as steps of the script: one, or none where nothing rides. */
-  steps({ shape }: Doc, positions: Float32Array | Float64Array): object[] {
+  steps({ shape }: Doc, positions: Float32Array | Float64Array): DocumentStep[] {
     const moved = carry(this.free, shape.exact ?? shape.positions, positions);
-    return moved.length > 0 ? [riderStep(moved, positions)] : [];
+    return moved.length > 0 ? [placeStep(moved, positions)] : [];
   }
 }

@@ -4,7 +4,7 @@ import { makeHandle, type Doc, type HandleDoc } from "./document.ts";
 export const freshId = (doc: Doc): number => 1 + Math.max(0, ...doc.handles.map((h) => h.id));
 
 /** Ascending. */
-export function stillIn({ fixed, handles }: Doc): Uint32Array {
+export function unmovedIn({ fixed, handles }: Doc): Uint32Array {
   const held = handles.filter((h) => h.held).flatMap((h) => [...h.vertices]);
   return held.length === 0 ? fixed : Uint32Array.from([...fixed, ...held]).sort();
 }
@@ -21,10 +21,10 @@ export function withoutHeld(handles: readonly HandleDoc[], vertices: ReadonlySet
 }
 
 /** The constraints when these vertices are to be still: what is new and farther from rest than `tolerance` is held where it is. */
-export function heldStill(doc: Doc, vertices: Iterable<number>, positions: Float32Array, tolerance: number): Pick<Doc, "fixed" | "handles"> {
+export function heldUnmoved(doc: Doc, vertices: Iterable<number>, positions: Float32Array, tolerance: number): Pick<Doc, "fixed" | "handles"> {
   const wanted = new Set(vertices);
   for (const h of doc.handles) if (!h.held) for (const v of h.vertices) wanted.delete(v);
-  const before = new Set(stillIn(doc));
+  const before = new Set(unmovedIn(doc));
   const gone = new Set([...before].filter((v) => !wanted.has(v)));
   const added = [...wanted].filter((v) => !before.has(v)).sort((a, b) => a - b);
   const rest = doc.shape.positions;
