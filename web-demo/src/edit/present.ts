@@ -117,8 +117,8 @@ export class Present {
     this.restDetector.reset();
     this.shown = doc.shape;
     if (!doc.handles.some((h) => h.id === this.selected && !h.held)) this.selected = doc.handles.find((h) => !h.held)?.id;
-    this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), !edit && !doc.sketch && doc.done.length === 0));
-    if (doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch)) await this.finishSketch();
+    if (doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch) && !edit) await this.finishSketch();
+    else this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), { fromRest: !edit && !doc.sketch && doc.done.length === 0, whole: doc.sketch !== undefined }));
     this.events.change();
     this.events.frame();
     if (!doc.sketch) this.client.wake();

@@ -83,12 +83,12 @@ export class EditClient {
     [this.data, this.shape, this.edit] = [data, shape, edit];
   }
 
-  /** A document or a moment, and what it looks like after a first frame. `fromRest`: not from the deformation as it is. */
-  enter(target: EditDocument | EditMoment | undefined, fromRest: boolean): Promise<Picture> {
+  /** A document or a moment, and what it looks like after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
+  enter(target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean }): Promise<Picture> {
     this.stop();
     return this.exclusive(async () => {
       const reset = fromRest ? this.edit.reset() : undefined;
-      const [picture] = await Promise.all([this.picture(target ?? atRest, { milliseconds: frameBudget }), reset]);
+      const [picture] = await Promise.all([this.picture(target ?? atRest, whole ? {} : { milliseconds: frameBudget }), reset]);
       return picture;
     });
   }
