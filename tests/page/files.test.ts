@@ -87,7 +87,7 @@ test("the exported script bends the rest shape to the same pose with the package
   const obj = (await exported("obj")).bytes.toString();
   const triangles = obj.split("\n").filter((line) => line.startsWith("f ")).flatMap((line) => line.split(" ").slice(1).map((c) => parseInt(c, 10) - 1));
   expect(farthest(before, positions)).toBeGreaterThan(0.1 * diagonal);
-  expect(farthest((await replay(script, before, triangles)).positions, positions)).toBeLessThan(1e-3 * diagonal);
+  expect(farthest((await replay(script, before, triangles)).positions, positions)).toBeLessThan(1e-6 * diagonal);
 });
 
 /** A sheet of 12 x 12 quads with all that an OBJ may hold beside coordinates. */

@@ -38,7 +38,7 @@ test.each(["arap", "edge-material"])("%s: the handle is met exactly, the fixed r
   expect(Math.hypot(moved.x - handle.x - 40, moved.y - handle.y + 90)).toBeLessThan(1);
   const script = (await ask((hook) => hook.script())) as Script;
   expect(script.steps[0]!.method).toBe(method);
-  expect(farthest((await replayed()).positions, now)).toBeLessThan(2e-3 * (await diagonal()));
+  expect(farthest((await replayed()).positions, now)).toBeLessThan(1e-6 * (await diagonal()));
   await demo.shot(`method-${method}`);
   await demo.press("Control+z");
   expect(farthest(rest, await demo.positions())).toBeLessThan(1e-4 * (await diagonal()));

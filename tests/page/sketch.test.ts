@@ -127,7 +127,7 @@ test("limb after limb, then a handle: one script holds it all", async () => {
   await demo.drag(paw, { x: paw.x - 30, y: paw.y - 30 });
   const { steps } = (await ask((hook) => hook.script())) as { steps: { method: string }[] };
   expect(steps.map((step) => step.method)).toEqual(["sketch", "sketch", "embedded-graph"]);
-  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-3 * (await diagonal()));
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-6 * (await diagonal()));
   await demo.shot("two-limbs");
 });
 

@@ -57,14 +57,17 @@ export class Finisher {
 
   #phases(morph: number): Phase[] {
     const { tolerance, iterations } = this.plan;
-    const spent = (before: number) => this.solving.progress.slice(0, before).reduce((sum, phase) => sum + phase.iterations.length, 0);
+    const spent = (before: number) =>
+      this.solving.progress.slice(0, before).reduce((sum, phase) => sum + phase.iterations.length, 0);
     const begin = (share: number) => () => {
       this.sketch.morph(share * morph);
       this.#handle.moveTo(this.#seed().targets);
     };
     const way = wayTo(this.sketch.pose());
     const left = (at: number) => Math.max(1, iterations - spent(at));
-    const parts = way.map((share, i) => ({ tolerance, begin: begin(share), get iterations() { return Math.min(iterationsOnTheWay, left(i)); } }));
+    const parts = way.map((share, i) => ({
+      tolerance, begin: begin(share), get iterations() { return Math.min(iterationsOnTheWay, left(i)); },
+    }));
     return [...parts, { tolerance, begin: begin(1), get iterations() { return left(way.length); } }];
   }
 
@@ -77,7 +80,7 @@ export class Finisher {
   }
 }
 
-/** Shares of the pose on the way to it, without the last: in one go a limb may turn so far that a solver takes the short way round. */
+/** Shares of the pose on the way to it, but the last: in one go a limb may turn so far that a solver takes the short way. */
 function wayTo({ heading, turns, twist }: SketchPose): number[] {
   let angle = heading;
   let largest = Math.abs(heading);

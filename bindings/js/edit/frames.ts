@@ -27,7 +27,9 @@ export interface FinishedEdit {
  * Each frame is finished before the next begins, and begins at rest over what is built already: it is what its steps
  * alone give, whatever the frames before it were, to the last bit.
  */
-export async function* runFrames(core: Core, shape: Shape, plan: ScriptPlan, { signal, onProgress }: EditOptions): AsyncGenerator<FinishedEdit> {
+export async function* runFrames(
+  core: Core, shape: Shape, plan: ScriptPlan, { signal, onProgress }: EditOptions,
+): AsyncGenerator<FinishedEdit> {
   const frames = plan.frames ?? 1;
   const edit = new Edit(core, shape);
   try {
@@ -54,7 +56,8 @@ function since(before: StepReport | undefined, step: StepReport): StepReport {
   if (!before) return step;
   const { factorizations, analyses, setupMs } = before;
   const own = {
-    ...step, factorizations: step.factorizations - factorizations, analyses: step.analyses - analyses, setupMs: step.setupMs - setupMs,
+    ...step,
+    factorizations: step.factorizations - factorizations, analyses: step.analyses - analyses, setupMs: step.setupMs - setupMs,
   };
   return step.finish && before.finish ? { ...own, finish: since(before.finish, step.finish) } : own;
 }

@@ -35,5 +35,6 @@ export function extendedLabels(labels: Uint32Array, parents: ArrayLike<number>):
 
 /** Numbers in rows. */
 export function rows(values: ArrayLike<number>, width: number): number[][] {
-  return Array.from({ length: values.length / width }, (_, row) => Array.from({ length: width }, (__, k) => values[row * width + k]));
+  return Array.from({ length: values.length / width }, (_, row) =>
+    Array.from({ length: width }, (__, k) => values[row * width + k]));
 }

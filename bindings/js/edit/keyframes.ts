@@ -25,7 +25,9 @@ function sameStep(place: Place, a: Json, b: Json): void {
 }
 
 function sameHandles(place: Place, what: string, mine: Json[], theirs: Json[]): void {
-  if (mine.length !== theirs.length) place.reject(`has ${theirs.length} ${what}; expected ${mine.length} as in the first keyframe`);
+  if (mine.length !== theirs.length) {
+    place.reject(`has ${theirs.length} ${what}; expected ${mine.length} as in the first keyframe`);
+  }
   theirs.forEach((handle, i) => {
     const here = place.item(i);
     for (const key of ["name", "select"]) same(here.at(key), mine[i][key], handle[key]);
@@ -35,7 +37,9 @@ function sameHandles(place: Place, what: string, mine: Json[], theirs: Json[]): 
 
 /** Poses over one region and one reference curve. */
 function sameSketch(place: Place, a: Json, b: Json): void {
-  if (b.refine !== undefined && b.refine !== false) place.at("refine").reject("is given in a keyframe; expected a refinement only in steps");
+  if (b.refine !== undefined && b.refine !== false) {
+    place.at("refine").reject("is given in a keyframe; expected a refinement only in steps");
+  }
   for (const key of new Set([...Object.keys(a), ...Object.keys(b)])) {
     if (!(poseKeys as readonly string[]).includes(key)) same(place.at(key), a[key], b[key]);
   }
@@ -44,9 +48,11 @@ function sameSketch(place: Place, a: Json, b: Json): void {
 function sameKind(place: Place, a: Json, b: Json): void {
   const [mine, theirs] = [a.move ?? {}, b.move ?? {}] as Transform[];
   const kind = (handle: Json, move: Transform) => (handle.targets ? "targets" : move.matrix ? "a matrix" : "a move");
-  if (kind(a, mine) !== kind(b, theirs)) place.reject(`has ${kind(b, theirs)}; expected ${kind(a, mine)} as in the first keyframe`);
+  const [expected, found] = [kind(a, mine), kind(b, theirs)];
+  if (expected !== found) place.reject(`has ${found}; expected ${expected} as in the first keyframe`);
   if (!mine.rotate || !theirs.rotate) return;
-  for (const key of ["axis", "about"] as const) same(place.at("move").at("rotate").at(key), mine.rotate[key], theirs.rotate[key]);
+  const turn = place.at("move").at("rotate");
+  for (const key of ["axis", "about"] as const) same(turn.at(key), mine.rotate[key], theirs.rotate[key]);
 }
 
 function same(place: Place, a: unknown, b: unknown): void {

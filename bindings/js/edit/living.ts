@@ -12,24 +12,24 @@ import { extentOf, insideOf, Shape } from "../shape/shape.js";
 import { extended, rows } from "./growth.js";
 import { located } from "./located.js";
 import type { StepPlan } from "./plan.js";
-import { readDocument } from "./read.js";
+import { type Plans, readDocument } from "./read.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, checkedRoles } from "./roles.js";
 import { same } from "./same.js";
 import { SketchStage } from "./sketch_stage.js";
 import { PutAway, type StageMoment } from "./stage.js";
 import { Stages } from "./stages.js";
-import type { EditDocument, EditMoment, EditQuality, EditReport, EditRun, EditStep, RunOptions, SettleOptions, SketchView } from "./types.js";
+import type {
+  EditDocument, EditMoment, EditQuality, EditReport, EditRun, EditStep, RunOptions, SettleOptions, SketchView,
+} from "./types.js";
 
 const momentFormat = "pliant-moment";
 const place = new Place("invalid-option", "options");
 const runKeys = ["milliseconds", "iterations"];
 
 /** What has been asked for. */
-interface Asked {
+interface Asked extends Plans {
   document: EditDocument | undefined;
-  plans: readonly StepPlan[];
-  seed: number | undefined;
 }
 
 const nothing: Asked = { document: undefined, plans: [], seed: undefined };
@@ -82,16 +82,14 @@ export class Edit {
     this.#live.reset();
   }
 
-  /** The document and how far it has been carried out: plain data. Moments of one edit share what has not changed between them. */
+  /** The document and how far it has been carried out: plain data. Moments of one edit share what has not changed. */
   moment(): EditMoment {
     const stages = this.#live.moments().map(({ moment }) => moment);
     return { format: momentFormat, version: 1, document: this.#asked.document, stages };
   }
 
   #read(document: EditDocument): Asked {
-    const { plans: before, seed: seedBefore } = this.#asked;
-    const { steps, seed } = readDocument(document, extentOf(this.shape), before, seedBefore);
-    return { document, plans: steps, seed };
+    return { document, ...readDocument(document, extentOf(this.shape), this.#asked) };
   }
 
   #goTo(moment: EditMoment): void {
@@ -108,13 +106,15 @@ export class Edit {
 
   #readMoment(value: EditMoment): { asked: Asked; stood: readonly StepPlan[]; stages: readonly StageMoment[] } {
     const here = new Place("invalid-script", "moment");
-    const { version, document, stages } = fields(here, value, ["format", "version", "document", "stages"]) as Partial<EditMoment>;
+    const known = ["format", "version", "document", "stages"];
+    const { version, document, stages } = fields(here, value, known) as Partial<EditMoment>;
     if (version !== 1) here.at("version").fail(version, "1");
     const moments = Array.from(list(here.at("stages"), stages), (stage, i) => readStage(here.at("stages").item(i), stage));
     if (document === undefined && moments.length === 0) return { asked: nothing, stood: [], stages: moments };
     const asked = this.#read(document as EditDocument);
     const sources = moments.map(({ source }) => source);
-    if (sources.every((source, at) => same(source, asked.plans[at]?.source))) return { asked, stood: asked.plans, stages: moments };
+    const standing = sources.every((source, at) => same(source, asked.plans[at]?.source));
+    if (standing) return { asked, stood: asked.plans, stages: moments };
     const stood = this.#read({ ...(document as EditDocument), steps: sources as EditDocument["steps"] }).plans;
     return { asked, stood, stages: moments };
   }
@@ -143,7 +143,7 @@ export class Edit {
     return { ...(last ?? this.#standing()), iterations: count, converged, milliseconds: performance.now() - begin };
   }
 
-  /** One iteration of the first step that has something to do; undefined where none has, or where building it took all the time. */
+  /** One iteration of the first step that has something to do; undefined: none has, or building it took all the time. */
   #advance(late: () => boolean): EditStep | undefined {
     const stages = this.#live;
     for (const [at, plan] of this.#asked.plans.entries()) {
@@ -162,7 +162,9 @@ export class Edit {
   #standing(): EditStep {
     const { last } = this.#live;
     const { total = 0, ...terms } = last?.energy() ?? {};
-    return { step: Math.max(0, this.#asked.plans.length - 1), iteration: 0, energy: total, terms, converged: true, accepted: false, milliseconds: 0, entry: -1, done: 0 };
+    const step = Math.max(0, this.#asked.plans.length - 1);
+    const nothing = { iteration: 0, converged: true, accepted: false, milliseconds: 0, entry: -1, done: 0 };
+    return { step, energy: total, terms, ...nothing };
   }
 
   /** Runs to the end and lets the event loop turn after each iteration. Errors: as `run`, aborted. */
@@ -203,7 +205,8 @@ export class Edit {
   normals(out?: FloatArray): FloatArray {
     const result = this.#output(out, 3);
     const { last, input } = this.#live;
-    return last ? last.normals(result) : surfaceNormals(input.positions, input.triangles, input.positions, input.dimension, result);
+    if (last) return last.normals(result);
+    return surfaceNormals(input.positions, input.triangles, input.positions, input.dimension, result);
   }
 
   #output(out: FloatArray | undefined, width: number): FloatArray {
@@ -211,7 +214,7 @@ export class Edit {
     return output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
   }
 
-  /** Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable where a step moves the surface alone. @internal */
+  /** Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable. @internal */
   carry(points: Float64Array): void {
     this.#live.carry(points);
   }
@@ -249,7 +252,8 @@ export class Edit {
     const positions = this.positions(new Float64Array(this.shape.dimension * this.vertices));
     const growth = this.refinement();
     const { rest } = insideOf(this.shape);
-    const measured = growth ? new Shape(this.#core, { positions: extended(rest, 3, growth.parents), triangles: growth.triangles }) : this.shape;
+    const grown = growth && { positions: extended(rest, 3, growth.parents), triangles: growth.triangles };
+    const measured = grown ? new Shape(this.#core, grown) : this.shape;
     try {
       const constraintError = errorOf(this.#live.last?.state().handles ?? [], positions, this.shape);
       return { ...measure(this.#core, measured, positions), constraintError };

@@ -1,6 +1,6 @@
 // A step that puts vertices somewhere and solves nothing.
 
-import type { FloatArray } from "../boundary/check.js";
+import { type FloatArray, toSpace } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import { surfaceNormals } from "../shape/normals.js";
@@ -29,7 +29,8 @@ export class PlaceStage extends Stage<PlacePlan> {
   prepare(plan: PlacePlan, rest: Rest): boolean {
     if (plan === this.plan && rest === this.rest) return false;
     const parts = checkedParts(plan, rest);
-    const stays = rest === this.rest && same(parts, this.#parts) && plan.parts.every(({ goal }, i) => sameGoal(goal, this.plan.parts[i].goal));
+    const stays = rest === this.rest && same(parts, this.#parts)
+      && plan.parts.every(({ goal }, i) => sameGoal(goal, this.plan.parts[i].goal));
     if (stays) {
       this.plan = plan;
       return false;
@@ -80,17 +81,20 @@ export class PlaceStage extends Stage<PlacePlan> {
 
   state(): State {
     const { dimension } = this.rest;
-    const points = (ids: Int32Array) => rows(gathered(this.#positions, ids, dimension), dimension).map((p) => (dimension === 2 ? [...p, 0] : p));
+    const points = (ids: Int32Array) => rows(toSpace(gathered(this.#positions, ids, dimension), dimension), 3);
     return { handles: this.#parts.map((ids) => ({ vertices: Array.from(ids), targets: points(ids) })) };
   }
 
   report(): StepReport {
     const iterations = this.#done ? [{ energy: 0, ms: this.#ms }] : [];
-    return { method: "place", unknowns: 0, factorizations: 0, analyses: 0, setupMs: 0, start: 0, iterations, converged: this.#done, energy: { total: 0 } };
+    return {
+      method: "place", unknowns: 0, ...this.past, setupMs: 0, start: 0, iterations, converged: this.#done, energy: { total: 0 },
+    };
   }
 
   carry(): never {
-    throw new PliantError("not-solvable", "place moves vertices, not the space around them; expected embedded-graph or another method that carries points");
+    const what = "place moves vertices, not the space around them";
+    throw new PliantError("not-solvable", `${what}; expected embedded-graph or another method that carries points`);
   }
 
   dispose(): void {

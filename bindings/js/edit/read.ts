@@ -12,6 +12,12 @@ import { maxCount, readDeformer, readSolve } from "./solve.js";
 
 const format = "pliant-edit";
 
+/** What the steps of a document ask for; `seed`: where they have none of their own. */
+export interface Plans {
+  plans: readonly StepPlan[];
+  seed: number | undefined;
+}
+
 /** Errors: invalid-script. */
 export function readScript(value: unknown, extent: Extent): ScriptPlan {
   const { script, context } = open(value, extent);
@@ -27,20 +33,21 @@ export function readScript(value: unknown, extent: Extent): ScriptPlan {
   };
 }
 
-/** The steps of a document of a living edit. `before`: plans of the document before it; steps that are the same objects keep them. Errors: invalid-script. */
-export function readDocument(value: unknown, extent: Extent, before: readonly StepPlan[], seedBefore: number | undefined): { steps: StepPlan[]; seed: number | undefined } {
+/** The steps of a document of a living edit. `before`: the document before it; steps that are the same objects keep their plans. Errors: invalid-script. */
+export function readDocument(value: unknown, extent: Extent, before: Plans): Plans {
   const { script, context } = open(value, extent);
   const place = new Place("invalid-script", "");
   for (const key of ["keyframes", "frames"]) {
     if (script[key] !== undefined) place.at(key).reject("is given to a living edit; expected steps, a document for each frame");
   }
-  const known = context.seed === seedBefore ? before : [];
-  return { steps: readSteps(place.at("steps"), script.steps, context, known), seed: context.seed };
+  const known = context.seed === before.seed ? before.plans : [];
+  return { plans: readSteps(place.at("steps"), script.steps, context, known), seed: context.seed };
 }
 
 function open(value: unknown, extent: Extent): { script: Fields; context: Context } {
   const place = new Place("invalid-script", "");
-  const script = fields(new Place("invalid-script", "script"), value, ["format", "version", "steps", "keyframes", "frames", "seed"]);
+  const known = ["format", "version", "steps", "keyframes", "frames", "seed"];
+  const script = fields(new Place("invalid-script", "script"), value, known);
   choice(place.at("format"), script.format, [format]);
   if (script.version !== 1) place.at("version").fail(script.version, "1");
   const seed = script.seed === undefined ? undefined : readSeed(place.at("seed"), script.seed);
@@ -100,12 +107,14 @@ function readSolverStep(place: Place, value: object, { extent, seed }: Context, 
     entries[i]?.source === item ? entries[i] : readDrag(place.at("drag").item(i), item, method, handles, extent));
   const loaded = [options, ...drag.map((entry) => entry.options)].some((given) => method.load?.(given as Options));
   if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
-  const fixed = old && known.fixed !== undefined && known.fixed === step.fixed ? old.fixed : readFixed(place.at("fixed"), step.fixed ?? [], extent);
+  const sameFixed = known.fixed !== undefined && known.fixed === step.fixed;
+  const fixed = old && sameFixed ? old.fixed : readFixed(place.at("fixed"), step.fixed ?? [], extent);
   return { kind: "solver", place, source: value, options, fixed, handles, drag, ...readSolve(place.at("solve"), step.solve) };
 }
 
 function readFixed(place: Place, value: unknown, extent: Extent): RegionPlan[] {
-  return Array.from(list(place, value, "selections"), (item, i) => ({ place: place.item(i), select: readSelection(place.item(i), item, extent) }));
+  return Array.from(list(place, value, "selections"), (item, i) =>
+    ({ place: place.item(i), select: readSelection(place.item(i), item, extent) }));
 }
 
 /** Vertices are put somewhere; nothing is solved. */

@@ -18,10 +18,11 @@ export interface Roles {
 const known = new WeakMap<readonly HandlePlan[], { fixed: readonly RegionPlan[]; rest: Float64Array; roles: Roles }>();
 
 /** Of a step over a rest shape; no vertex in two roles, and a target for each. Errors: invalid-script. */
-export function checkedRoles({ fixed, handles, drag }: Pick<SolverPlan, "fixed" | "handles" | "drag">, rest: Pick<Rest, "positions" | "dimension">): Roles {
-  const { positions, dimension } = rest;
+export function checkedRoles(plan: Pick<SolverPlan, "fixed" | "handles" | "drag">, { positions, dimension }: Rest): Roles {
+  const { fixed, handles, drag } = plan;
   const before = known.get(handles);
-  const roles = before && before.fixed === fixed && before.rest === positions ? before.roles : rolesOf(fixed, handles, positions);
+  const stands = before !== undefined && before.fixed === fixed && before.rest === positions;
+  const roles = stands ? before.roles : rolesOf(fixed, handles, positions);
   known.set(handles, { fixed, rest: positions, roles });
   handles.forEach(({ goal }, i) => checkTargets(goal, roles.handles[i], dimension));
   for (const { goals } of drag) for (const { handle, goal } of goals) checkTargets(goal, roles.handles[handle], dimension);
@@ -37,7 +38,8 @@ function rolesOf(fixed: readonly RegionPlan[], handles: readonly HandlePlan[], r
     const own = selectedIds(here, select, rest);
     for (const id of own) {
       const other = taken.get(id);
-      if (other) here.reject(`holds vertex ${id}, as ${other.path} does; expected a vertex to be fixed or moved by one handle`);
+      const expected = "expected a vertex to be fixed or moved by one handle";
+      if (other) here.reject(`holds vertex ${id}, as ${other.path} does; ${expected}`);
       taken.set(id, here);
     }
     return own;
@@ -46,7 +48,7 @@ function rolesOf(fixed: readonly RegionPlan[], handles: readonly HandlePlan[], r
 }
 
 /** The vertices of each part of a step that places them. Errors: invalid-script. */
-export function checkedParts({ parts }: PlacePlan, rest: Pick<Rest, "positions" | "dimension">): Int32Array[] {
+export function checkedParts({ parts }: PlacePlan, rest: Rest): Int32Array[] {
   return checkedRoles({ fixed: [], handles: parts, drag: [] }, rest).handles;
 }
 
@@ -69,7 +71,10 @@ export function reach(handle: Handle, goal: Goal | undefined): void {
 }
 
 /** Where a goal takes points at rest, `dimension` numbers each. */
-export function placed({ place, goal }: HandlePlan & { goal: Goal }, points: Float64Array, dimension: number): ArrayLike<number> {
+export function placed(
+  { place, goal }: HandlePlan & { goal: Goal }, points: Float64Array, dimension: number,
+): ArrayLike<number> {
   if ("targets" in goal) return goal.targets;
-  return applyMotion(readTransform(place.at("move"), goal.move, dimension), points, centroidOf(points, dimension), dimension);
+  const motion = readTransform(place.at("move"), goal.move, dimension);
+  return applyMotion(motion, points, centroidOf(points, dimension), dimension);
 }

@@ -21,9 +21,10 @@ function sameList(a: List, b: List): boolean {
   return true;
 }
 
-/** `next`, fresh, with every part that equals the same part of `before` replaced by that part: a history keeps what stays once. */
+/** `next`, fresh, with every part that equals the same part of `before` replaced by it: a history keeps what stays once. */
 export function shared<T>(before: unknown, next: T): T {
-  if (typeof before !== "object" || typeof next !== "object" || before === null || next === null || before === (next as unknown)) return next;
+  if (before === (next as unknown)) return next;
+  if (typeof before !== "object" || typeof next !== "object" || before === null || next === null) return next;
   if (ArrayBuffer.isView(next)) return same(before, next) ? (before as T) : next;
   if (Array.isArray(before) !== Array.isArray(next)) return next;
   const [old, parts] = [before as Fields, next as Record<string, unknown>];

@@ -17,8 +17,10 @@ export function readSketchStep(place: Place, value: unknown, extent: Extent, see
   readDrawing(place, step);
   const pose = readPose(place, step);
   const region = step.region === undefined ? undefined : readRegion(place.at("region"), step);
-  if (region === "previous" && step.partitions !== undefined) place.reject('has partitions beside "region": "previous"; expected one or the other');
-  if (region === "previous" && step.mirror !== undefined) place.reject('has mirror beside "region": "previous"; expected one or the other');
+  for (const key of ["partitions", "mirror"]) {
+    if (region !== "previous" || step[key] === undefined) continue;
+    place.reject(`has ${key} beside "region": "previous"; expected one or the other`);
+  }
   const refine = readRefine(place.at("refine"), step.refine ?? false);
   if (refine && step.finish !== undefined) place.reject("has refine and finish; expected one or the other");
   return {
@@ -39,7 +41,9 @@ function readPose(place: Place, step: Fields): PosePlan {
   if ([bend, twist, scale, turning].every((asked) => asked === undefined)) {
     place.reject("has no bend, twist, scale or turning and asks for nothing; expected at least one of them");
   }
-  if (twistSpeed !== undefined && twist === undefined) place.at("twistSpeed").reject("is given without twist; expected both or neither");
+  if (twistSpeed !== undefined && twist === undefined) {
+    place.at("twistSpeed").reject("is given without twist; expected both or neither");
+  }
   return {
     bend: readBend(place.at("bend"), bend),
     degrees: twist === undefined ? undefined : readDegrees(place.at("twist"), twist),

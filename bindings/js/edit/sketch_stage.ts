@@ -1,4 +1,4 @@
-// A sketch step: a limb that stays as long as the same stroke chose it, its pose, and perhaps a solver that goes on from there.
+// A sketch step: a limb, which stays as long as the same stroke chose it, its pose, and perhaps a solver that goes on.
 
 import type { FloatArray } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
@@ -104,8 +104,10 @@ export class SketchStage extends Stage<SketchPlan> {
   #finish(morph: number): void {
     const { finish } = this.plan;
     const kept = this.#finisher;
-    if (kept && finish && same(kept.plan.options, finish.options) && kept.plan.spacing === finish.spacing) return kept.begin(finish, morph);
-    const next = finish && located(this.plan.place.at("finish"), () => new Finisher(this.rest.core, this.#sketch, finish, morph));
+    const stays = kept && finish && same(kept.plan.options, finish.options) && kept.plan.spacing === finish.spacing;
+    if (stays) return kept.begin(finish, morph);
+    const place = this.plan.place.at("finish");
+    const next = finish && located(place, () => new Finisher(this.rest.core, this.#sketch, finish, morph));
     this.#dropFinisher();
     this.#finisher = next;
   }
@@ -165,15 +167,19 @@ export class SketchStage extends Stage<SketchPlan> {
     const { added } = this;
     return {
       method: "sketch", unknowns: smooth ? region : 0,
-      factorizations: this.past.factorizations + systems, analyses: this.past.analyses + systems, setupMs: this.#setupMs,
-      start: 0, iterations: this.#shown ? [{ energy: 0, ms: this.#poseMs }] : [], converged: this.#shown, energy: { total: 0 },
+      factorizations: this.past.factorizations + systems, analyses: this.past.analyses + systems,
+      setupMs: this.#setupMs, start: 0, iterations: this.#shown ? [{ energy: 0, ms: this.#poseMs }] : [],
+      converged: this.#shown, energy: { total: 0 },
       ...(added ? { added: added.parents.length / 2 } : {}),
       ...(this.#finisher ? { finish: this.#finisher.report() } : {}),
     };
   }
 
   carry(points: Float64Array): void {
-    if (!this.#finisher) throw new PliantError("not-solvable", "sketch moves a surface, not the space around it; expected embedded-graph or another method that carries points");
+    if (!this.#finisher) {
+      const what = "sketch moves a surface, not the space around it";
+      throw new PliantError("not-solvable", `${what}; expected embedded-graph or another method that carries points`);
+    }
     this.#finisher.deformer.transformPoints(points, points);
   }
 
@@ -231,7 +237,8 @@ function atRest(sketch: Sketch): void {
 /** Poses a sketch from rest and gives the morph it shows. */
 function posed(sketch: Sketch, { place, pose, toward, refine }: SketchPlan): number {
   const show = (plan: PosePlan) => {
-    if (plan.bend) located(place.at("bend"), () => sketch.bend(plan.bend!.target, { unfinished: plan.bend!.unfinished }));
+    const { bend } = plan;
+    if (bend) located(place.at("bend"), () => sketch.bend(bend.target, { unfinished: bend.unfinished }));
     if (plan.degrees !== undefined) located(place.at("twist"), () => sketch.twist(plan.degrees!));
     for (const key of ["scale", "turning", "twistSpeed"] as const) {
       const profile = plan[key];

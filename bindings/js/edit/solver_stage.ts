@@ -80,7 +80,8 @@ class Model {
   }
 
   #after(changes: Given): Given {
-    return drive(this.deformer).method.merge?.(this.options as Options, changes as Options) ?? { ...this.options, ...changes };
+    const { merge } = drive(this.deformer).method;
+    return merge?.(this.options as Options, changes as Options) ?? { ...this.options, ...changes };
   }
 }
 
@@ -120,7 +121,8 @@ export class SolverStage extends Stage<SolverPlan> {
     const { options, handles, drag, tolerance } = this.plan;
     const begun = this.#solving.progress.length;
     return this.#sound && begun > 0 && rest === this.rest && same(roles, this.#model.roles)
-      && same(options, plan.options) && tolerance === plan.tolerance && handles.every(({ goal }, i) => sameGoal(goal, plan.handles[i].goal))
+      && same(options, plan.options) && tolerance === plan.tolerance
+      && handles.every(({ goal }, i) => sameGoal(goal, plan.handles[i].goal))
       && drag.slice(0, begun - 1).every((entry, i) => plan.drag[i] !== undefined && sameEntry(entry, plan.drag[i]))
       && this.#solving.fits(this.#phases(plan));
   }
@@ -129,7 +131,8 @@ export class SolverStage extends Stage<SolverPlan> {
   #takeUp(plan: SolverPlan, rest: Rest, roles: Roles): true {
     const begin = performance.now();
     const { deformer } = this.#model;
-    const stays = this.#sound && rest === this.rest && plan.options.method === this.method && !drive(deformer).refined();
+    const stays = this.#sound && rest === this.rest && plan.options.method === this.method
+      && !drive(deformer).refined();
     if (!stays || !this.#model.canTake(plan.options as object as Given)) this.#rebuild(plan, rest, roles);
     else if (!same(roles, this.#model.roles)) this.#constrain(roles);
     [this.plan, this.rest] = [plan, rest];

@@ -82,12 +82,15 @@ export function copied(progress: readonly Progress[]): Progress[] {
 }
 
 /** What a deformer did, as a step of the report: `main` is the step's own part of the progress. */
-export function solvedReport({ deformer }: Solving, main: Progress | undefined, setupMs: number, past = { factorizations: 0, analyses: 0 }): StepReport {
+export function solvedReport(
+  { deformer }: Solving, main: Progress | undefined, setupMs: number, past = { factorizations: 0, analyses: 0 },
+): StepReport {
   const { unknowns, factorizations, analyses } = deformer.counters();
   const { total, terms } = deformer.energy();
   return {
-    method: deformer.method, unknowns, factorizations: past.factorizations + factorizations, analyses: past.analyses + analyses,
-    setupMs, start: main?.start ?? total, iterations: [...(main?.iterations ?? [])], converged: main?.converged ?? false,
+    method: deformer.method, unknowns, setupMs,
+    factorizations: past.factorizations + factorizations, analyses: past.analyses + analyses,
+    start: main?.start ?? total, iterations: [...(main?.iterations ?? [])], converged: main?.converged ?? false,
     energy: { total, ...terms },
   };
 }

@@ -45,7 +45,7 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
 
   abstract readonly method: string;
 
-  /** Takes the step over a rest shape: keeps what it can and does nothing that takes an iteration. Whether anything is different. Errors: then nothing is. */
+  /** Takes the step over a rest shape and keeps what it can; no iteration. Whether anything is different. Errors: then nothing is. */
   abstract prepare(plan: P, rest: Rest): boolean;
   /** Nothing is left to do. */
   abstract readonly done: boolean;

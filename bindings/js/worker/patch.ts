@@ -20,7 +20,10 @@ export function patchOf(before: unknown, next: unknown): Patch {
 export function patched(before: unknown, patch: Patch): unknown {
   if ("kept" in patch) return before;
   if ("value" in patch) return patch.value;
-  if ("fields" in patch) return Object.fromEntries(Object.entries(patch.fields).map(([key, part]) => [key, patched((before as Fields)[key], part)]));
+  if ("fields" in patch) {
+    const parts = Object.entries(patch.fields).map(([key, part]) => [key, patched((before as Fields)[key], part)]);
+    return Object.fromEntries(parts);
+  }
   const { head, tail } = patch;
   const items = before as readonly unknown[];
   return [...items.slice(0, head), ...tail.map((part, i) => patched(items[head + i], part))];

@@ -31,7 +31,7 @@ export interface DragEntry {
 export interface Grab {
   readonly start: ReadonlyMap<number, Motion>;
   readonly options: Options;
-  /** Iterations of the step's own solve so far, and whether it came to rest; `cut`: it ended with so many, because a handle was moved. */
+  /** Iterations of the step's own solve, and whether it came to rest; `cut`: it ended after so many, for a handle was moved. */
   readonly solved: number;
   readonly settled: boolean;
   readonly cut?: number;
@@ -130,7 +130,8 @@ const patience = 300;
 /** With all that differs from what the grab says in an entry of its own, which is then under way. */
 export function withChanges(doc: Doc): Doc {
   const { grab, handles, options } = doc;
-  const motions = new Map(handles.filter((h) => !h.held && grab.now.motions.get(h.id) !== h.motion).map((h) => [h.id, h.motion]));
+  const moved = handles.filter((h) => !h.held && grab.now.motions.get(h.id) !== h.motion);
+  const motions = motionsOf(moved);
   const otherOptions = grab.now.options !== options;
   if (doc.sketch || (motions.size === 0 && !otherOptions)) return doc;
   const entry: DragEntry = { motions, iterations: patience, ...(otherOptions ? { options } : {}) };
@@ -181,7 +182,9 @@ function regionsOf(doc: Doc): Remembered {
   const handles = doc.handles.map((h) => ({
     name: h.name,
     select: { vertices: [...h.vertices] },
-    ...(h.held ? { targets: triples(h.held, dimension) } : { move: asTransform(doc.grab.start.get(h.id) ?? atRest, h.center, dimension) }),
+    ...(h.held
+      ? { targets: triples(h.held, dimension) }
+      : { move: asTransform(doc.grab.start.get(h.id) ?? atRest, h.center, dimension) }),
   }));
   const regions = { ...region(doc.fixed), ...(handles.length > 0 ? { handles } : {}) };
   remembered.set(doc.grab.start, regions);
@@ -259,8 +262,8 @@ export const finishedDocument = (doc: Doc, step: DocumentStep): EditDocument => 
 
 /** The document as an edit script (contract, section 3), with steps that follow the present one. */
 export function editScript(doc: Doc, after: readonly DocumentStep[] = []): EditDocument {
-  const idle = doc.done.length === 0 && !doc.sketch;
-  const present = doc.sketch ? finishedStep(doc) : asksForSomething(doc) || idle ? grabStep(doc, doc.grab.entries, patience) : undefined;
+  const grab = asksForSomething(doc) || doc.done.length === 0 ? grabStep(doc, doc.grab.entries, patience) : undefined;
+  const present = doc.sketch ? finishedStep(doc) : grab;
   return documentOf(present ? [...doc.done, present, ...after] : doc.done);
 }
 

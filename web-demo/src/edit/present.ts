@@ -7,7 +7,8 @@ import { topologyOf, type Topology } from "../shapes/topology.ts";
 import { EditClient, type Picture } from "../solver/edit_client.ts";
 import type { EditMoment, EditRun, ShapeReport, SketchView, State } from "../solver/pliant.ts";
 import {
-  editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withMotion, withRun, type Doc, type HandleDoc,
+  editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withMotion, withRun,
+  type Doc, type HandleDoc,
 } from "./document.ts";
 import { LooseParts } from "./loose_parts.ts";
 import type { Motion } from "./motion.ts";
@@ -117,8 +118,10 @@ export class Present {
     this.restDetector.reset();
     this.shown = doc.shape;
     if (!doc.handles.some((h) => h.id === this.selected && !h.held)) this.selected = doc.handles.find((h) => !h.held)?.id;
-    if (doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch) && !edit) await this.finishSketch();
-    else this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), { fromRest: !edit && !doc.sketch && doc.done.length === 0, whole: doc.sketch !== undefined }));
+    if (!edit && doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch)) await this.finishSketch();
+    else this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), {
+      fromRest: !edit && !doc.sketch && doc.done.length === 0, whole: doc.sketch !== undefined,
+    }));
     this.events.change();
     this.events.frame();
     if (!doc.sketch) this.client.wake();

@@ -118,7 +118,8 @@ const solve = { iterations: 300, tolerance: 1e-6 };
 
 /** Nothing that is at rest is named. */
 function profilesOf(sketch: SketchDoc) {
-  const profile = (control: Control) => (atRest(sketch, control) ? {} : { [control]: { profile: profileOf(control, sketch.knots[control]) } });
+  const profile = (control: Control) =>
+    (atRest(sketch, control) ? {} : { [control]: { profile: profileOf(control, sketch.knots[control]) } });
   const { twist } = sketch;
   return {
     ...(twist !== 0 ? { twist: { degrees: twist }, ...profile("twistSpeed") } : {}),

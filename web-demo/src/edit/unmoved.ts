@@ -20,8 +20,10 @@ export function withoutHeld(handles: readonly HandleDoc[], vertices: ReadonlySet
   });
 }
 
-/** The constraints when these vertices are to be still: what is new and farther from rest than `tolerance` is held where it is. */
-export function heldUnmoved(doc: Doc, vertices: Iterable<number>, positions: Float32Array, tolerance: number): Pick<Doc, "fixed" | "handles"> {
+/** The constraints when these vertices are not to move: what is new and farther from rest than `tolerance` is held where it is. */
+export function heldUnmoved(
+  doc: Doc, vertices: Iterable<number>, positions: Float32Array, tolerance: number,
+): Pick<Doc, "fixed" | "handles"> {
   const wanted = new Set(vertices);
   for (const h of doc.handles) if (!h.held) for (const v of h.vertices) wanted.delete(v);
   const before = new Set(unmovedIn(doc));

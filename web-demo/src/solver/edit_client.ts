@@ -2,8 +2,8 @@
 // until the shape is at rest, always towards the newest document. A frame is one message each way.
 import type { ShapeData } from "../shapes/shape.ts";
 import {
-  connect, type EditDocument, type EditMoment, type EditRun, type ShapeReport, type SketchView, type State, type WorkerEdit, type WorkerPliant,
-  type WorkerShape,
+  connect, type EditDocument, type EditMoment, type EditRun, type ShapeReport, type SketchView, type State,
+  type WorkerEdit, type WorkerPliant, type WorkerShape,
 } from "./pliant.ts";
 
 /** What the screen shows after a run. */
@@ -83,12 +83,15 @@ export class EditClient {
     [this.data, this.shape, this.edit] = [data, shape, edit];
   }
 
-  /** A document or a moment, and what it looks like after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
-  enter(target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean }): Promise<Picture> {
+  /** A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
+  enter(
+    target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean },
+  ): Promise<Picture> {
     this.stop();
     return this.exclusive(async () => {
       const reset = fromRest ? this.edit.reset() : undefined;
-      const [picture] = await Promise.all([this.picture(target ?? atRest, whole ? {} : { milliseconds: frameBudget }), reset]);
+      const limit = whole ? {} : { milliseconds: frameBudget };
+      const [picture] = await Promise.all([this.picture(target ?? atRest, limit), reset]);
       return picture;
     });
   }
@@ -173,10 +176,13 @@ export class EditClient {
   }
 
   /** Applies, runs, looks: one message each way. */
-  private async picture(target: EditDocument | EditMoment, limit: { milliseconds?: number; iterations?: number }): Promise<Picture> {
+  private async picture(
+    target: EditDocument | EditMoment, limit: { milliseconds?: number; iterations?: number },
+  ): Promise<Picture> {
     const { edit, watching } = this;
     const [, run, flat, normals, sketch, state] = await Promise.all([
-      edit.apply(target), edit.run(limit), edit.positions(), edit.normals(), edit.sketch(), watching ? edit.state() : undefined,
+      edit.apply(target), edit.run(limit), edit.positions(), edit.normals(), edit.sketch(),
+      watching ? edit.state() : undefined,
     ]);
     const positions = this.data!.dimension === 2 ? inSpace(flat) : flat;
     return { positions, normals, run, sketch, state };
