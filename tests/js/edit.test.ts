@@ -1,6 +1,7 @@
 // The living edit: what it promises, over every method and sketches.
 
-import { describe, expect, it } from "vitest";
+import { Worker } from "node:worker_threads";
+import { describe, expect, it, vi } from "vitest";
 import { editCases } from "./support/edits.js";
 import { half, script } from "./support/edit_script.js";
 import { limb } from "./support/limb.js";
@@ -513,5 +514,30 @@ describe.each([{ inline: false }, { inline: true }])("in the worker $inline", ({
     expect((await there.run()).converged).toBe(true);
     await there.dispose();
     expect((await errorOf(() => there.run())).code).toBe("disposed");
+  });
+});
+
+describe("a frame in the worker", () => {
+  it("costs one message each way, and of a document what is new", async () => {
+    const library = await entries.worker.init({ inline: false });
+    const big = sheet(61);
+    const there = await library.open(await library.shape(big));
+    const [fixed, select] = [[{ vertices: where(big.positions, (x) => x < 0.4) }], { vertices: where(big.positions, (x) => x > 0.6) }];
+    const at = (z: number) => document([{ method: "arap", fixed, handles: [{ name: "hand", select, move: { translate: [0, 0, z] } }] }]);
+    await there.apply(at(0.1));
+    const [sent, received] = [vi.spyOn(Worker.prototype, "postMessage"), vi.spyOn(Worker.prototype, "emit")];
+    try {
+      const frame = await Promise.all([there.apply(at(0.2)), there.run({ iterations: 2 }), there.positions(), there.normals()]);
+      expect(frame[1].iterations).toBe(2);
+      expect(sent).toHaveBeenCalledTimes(1);
+      expect(received.mock.calls.filter(([event]) => event === "message")).toHaveLength(1);
+      expect(JSON.stringify(sent.mock.calls[0][0]).length).toBeLessThan(2000);
+    } finally {
+      sent.mockRestore();
+      received.mockRestore();
+    }
+    const here = carriedOut(pliant.shape(big), at(0.2));
+    await there.run();
+    expect(distance(await there.positions(), here.positions())).toBeLessThan(1e-4);
   });
 });

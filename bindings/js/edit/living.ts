@@ -123,8 +123,8 @@ export class Edit {
 
   /**
    * Solves on: for so long, so many iterations, or to the end. At least one iteration, and no more than one beyond the
-   * time. Errors: invalid-script for what only the result of earlier steps brings out, not-solvable, too-large; the last
-   * good result stays.
+   * time; building a step that takes all the time is a run of its own, with no iteration. Errors: invalid-script for what
+   * only the result of earlier steps brings out, not-solvable, too-large; the last good result stays.
    */
   run(options: RunOptions = {}): EditRun {
     return this.#run(readRun(fields(place, options, runKeys)));
