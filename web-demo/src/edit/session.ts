@@ -142,12 +142,12 @@ export class Session {
   }
 
   /** The vertices that do not move: fixed at rest, or held where they are. */
-  get still(): Uint32Array {
+  get unmoved(): Uint32Array {
     return unmovedIn(this.present.doc);
   }
 
   /** Replaces what does not move; vertices of handles stay with them. What has left its rest is held where it is now. */
-  setStill(vertices: Iterable<number>): Promise<boolean> {
+  setUnmoved(vertices: Iterable<number>): Promise<boolean> {
     const { doc, positions, report } = this.present;
     if (doc.sketch) return Promise.resolve(false);
     return this.constrain(heldUnmoved(doc, vertices, positions, 1e-4 * report.diagonal));

@@ -21,7 +21,7 @@ export class Paint implements Tool {
 
   down(at: Pointer): boolean {
     if (!this.stage.pick(at.x, at.y)) return false;
-    this.stroke = new Set(this.stage.session.still);
+    this.stroke = new Set(this.stage.session.unmoved);
     this.last = at;
     this.dab(at);
     return true;
@@ -41,7 +41,7 @@ export class Paint implements Tool {
   }
 
   up(): void {
-    if (this.stroke) void this.stage.session.setStill(this.stroke);
+    if (this.stroke) void this.stage.session.setUnmoved(this.stroke);
     this.stroke = undefined;
     this.stage.preview();
   }
