@@ -1,11 +1,8 @@
 // The table of deformation methods: the page's menus, sliders and scripts are made from it.
+import type { Options, OptionValue, Strokes } from "./options.ts";
 import { vertexCount, type ShapeData } from "./shapes/shape.ts";
 
-/** Polylines on the surface at rest, painted by the visitor. */
-export type Strokes = readonly (readonly (readonly [number, number, number])[])[];
-export type OptionValue = number | boolean | string | Strokes;
-/** As the controls show them; `scriptOptions` gives what the package takes. */
-export type Options = Readonly<Record<string, OptionValue>>;
+export type { Options, OptionValue, Strokes };
 
 /** A control: a number on a slider, a switch, or one of several. */
 export type MethodOption = {

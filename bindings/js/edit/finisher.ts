@@ -6,8 +6,7 @@ import type { Handle } from "../deform/handle.js";
 import type { Sketch, SketchPose, SketchSeed } from "../deform/sketch.js";
 import type { FinishPlan } from "./plan.js";
 import { type Phase, solvedReport, Solving } from "./solving.js";
-import type { StageMoment } from "./stage.js";
-import type { StepReport } from "./types.js";
+import type { StageMoment, StepReport } from "./types.js";
 
 /** Largest turn of a limb that a solver is shown in one go, in radians. */
 const largestTurn = Math.PI / 3;

@@ -17,7 +17,8 @@ import type { Rest } from "./rest.js";
 import { checkedParts, checkedRoles } from "./roles.js";
 import { same } from "./same.js";
 import { SketchStage } from "./sketch_stage.js";
-import { PutAway, type StageMoment } from "./stage.js";
+import { PutAway } from "./stage.js";
+import type { StageMoment } from "./types.js";
 import { Stages } from "./stages.js";
 import type {
   EditDocument, EditMoment, EditQuality, EditReport, EditRun, EditStep, RunOptions, SettleOptions, SketchView,

@@ -9,8 +9,8 @@ import type { PlacePlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, placed, sameGoal } from "./roles.js";
 import { same } from "./same.js";
-import { Stage, type StageMoment, type StageStep } from "./stage.js";
-import type { StepReport } from "./types.js";
+import { Stage, type StageStep } from "./stage.js";
+import type { StageMoment, StepReport } from "./types.js";
 
 export class PlaceStage extends Stage<PlacePlan> {
   readonly method = "place";

@@ -11,8 +11,8 @@ import type { PosePlan, SketchPlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 import { copied } from "./solving.js";
-import { Stage, type StageMoment, type StageStep } from "./stage.js";
-import type { SketchView, StepReport } from "./types.js";
+import { Stage, type StageStep } from "./stage.js";
+import type { SketchView, StageMoment, StepReport } from "./types.js";
 
 /** What chooses a limb; the rest of a step poses it. */
 const limbOf = ({ sketch: { smooth: _, ...drawing }, region }: SketchPlan) => ({ ...drawing, region });

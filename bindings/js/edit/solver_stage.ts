@@ -10,8 +10,8 @@ import type { Rest } from "./rest.js";
 import { checkedRoles, reach, type Roles, sameGoal } from "./roles.js";
 import { same } from "./same.js";
 import { copied, type Phase, solvedReport, Solving } from "./solving.js";
-import { Stage, type StageMoment, type StageStep } from "./stage.js";
-import type { StepReport } from "./types.js";
+import { Stage, type StageStep } from "./stage.js";
+import type { StageMoment, StepReport } from "./types.js";
 
 type Given = Readonly<Record<string, unknown>>;
 

@@ -1,25 +1,13 @@
 // How a deformer is led through what a step asks of it, one iteration after another.
 
 import { type Deformer, drive, type Step } from "../deform/deformer.js";
-import type { IterationReport, StepReport } from "./types.js";
+import type { Progress, StepReport } from "./types.js";
 
 /** A part of it: from `begin` on so many accepted iterations, or until the method's own test holds. */
 export interface Phase {
   iterations: number;
   tolerance: number;
   begin(): void;
-}
-
-/** How far a phase has come. Plain data, part of a moment. */
-export interface Progress {
-  /** Energy before its first iteration. */
-  start: number;
-  iterations: IterationReport[];
-  converged: boolean;
-  /** Nothing more would come of it. */
-  settled: boolean;
-  factorizations: number;
-  analyses: number;
 }
 
 export class Solving {

@@ -8,20 +8,7 @@ import { extendedLabels, grown } from "./growth.js";
 import type { StepPlan } from "./plan.js";
 import { Rest } from "./rest.js";
 import { shared } from "./same.js";
-import type { Progress } from "./solving.js";
-import type { StepReport } from "./types.js";
-
-/** What a stage was at some time: plain data, which takes it back there. */
-export interface StageMoment {
-  /** The step it stood for. */
-  source: unknown;
-  /** Of its solver. */
-  progress: Progress[];
-  /** Whether a pose or a placement had been shown. */
-  shown?: boolean;
-  /** Of its solver; absent where the step alone says what comes of it. */
-  state?: State;
-}
+import type { StageMoment, StepReport } from "./types.js";
 
 /** One iteration, and of what. */
 export interface StageStep extends Step {

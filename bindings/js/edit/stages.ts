@@ -7,8 +7,8 @@ import { PlaceStage } from "./place_stage.js";
 import { Rest } from "./rest.js";
 import { SketchStage } from "./sketch_stage.js";
 import { SolverStage } from "./solver_stage.js";
-import { PutAway, Stage, type StageMoment } from "./stage.js";
-import type { StepReport } from "./types.js";
+import { PutAway, Stage } from "./stage.js";
+import type { StageMoment, StepReport } from "./types.js";
 
 const makers = {
   solver: (plan: SolverPlan, rest: Rest): Stage => new SolverStage(plan, rest) as Stage,

@@ -7,7 +7,6 @@ import type { Quality } from "../shape/quality.js";
 import type { Selection } from "../shape/selection.js";
 import type { ShapeReport } from "../shape/shape.js";
 import type { Camera, Hold, Mirror, Profile, Refinement, Stroke } from "../deform/sketch.js";
-import type { StageMoment } from "./stage.js";
 import type { State } from "../boundary/state.js";
 import type { Transform } from "../shape/transform.js";
 
@@ -116,6 +115,30 @@ export interface EditProgress {
 
 /** What a living edit carries out: an edit script with steps. */
 export type EditDocument = Omit<EditScript, "keyframes" | "frames" | "steps"> & { steps: readonly ScriptAnyStep[] };
+
+/** How far a phase has come. Plain data, part of a moment. */
+export interface Progress {
+  /** Energy before its first iteration. */
+  start: number;
+  iterations: IterationReport[];
+  converged: boolean;
+  /** Nothing more would come of it. */
+  settled: boolean;
+  factorizations: number;
+  analyses: number;
+}
+
+/** What a stage was at some time: plain data, which takes it back there. */
+export interface StageMoment {
+  /** The step it stood for. */
+  source: unknown;
+  /** Of its solver. */
+  progress: Progress[];
+  /** Whether a pose or a placement had been shown. */
+  shown?: boolean;
+  /** Of its solver; absent where the step alone says what comes of it. */
+  state?: State;
+}
 
 /** A document and how far it had been carried out, as `Edit.moment` gives it and `Edit.apply` takes it: plain data. */
 export interface EditMoment {

@@ -1,6 +1,6 @@
 // What the page knows about a shape at rest, wherever it came from.
 
-import type { Options } from "../methods.ts";
+import type { Options } from "../options.ts";
 
 export interface ShapeData {
   /** Key of the catalog, or "file" for the user's own. */
