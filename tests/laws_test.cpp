@@ -1,4 +1,4 @@
-// The laws every deformer passes (house.md), over every registered method.
+// The laws every deformer passes (CONTRIBUTING.md), over every registered method.
 #include <algorithm>
 #include <numbers>
 #include <string>

@@ -1,4 +1,4 @@
-// Deformers and handles: the calls of the contract, on the installed package.
+// Deformers and handles: their calls, on the installed package.
 
 import { beforeEach, describe, expect, it } from "vitest";
 import { errorOf, pliant } from "./support/package.js";

@@ -12,7 +12,7 @@ describe("options while a handle is held", () => {
     return report.drag!.map(({ factorizations, analyses }) => [factorizations, analyses]);
   };
 
-  it("cost what the contract says: nothing for p, gravity and targets, one factorisation for stiffness", async () => {
+  it("cost what is promised: nothing for p, gravity and targets, one factorisation for stiffness", async () => {
     const hand = [{ name: "hand", move: { translate: [0, 0, 0.2] } }];
     expect(await costs(step, [
       { options: { pStretch: 0.5 } }, { options: { pBend: 0.2 } }, { options: { gravity: [0, 0, -1] } }, { handles: hand },

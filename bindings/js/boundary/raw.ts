@@ -1,7 +1,7 @@
 // The shape of the WASM modules as embind exposes them: what bindings/wasm/bind_*.cpp provides and
 // the TypeScript facade beside this file consumes. Nothing here is public.
 //
-// Conventions. A fallible call returns a RawStatus (code "ok" or an error code of the contract).
+// Conventions. A fallible call returns a RawStatus (code "ok" or an error code of docs/errors.md).
 // Arrays go in through a RawScratch: ask for a view, `.set()` it, pass the scratch. Arrays come out
 // as a view of WASM memory that is valid only until the next call: copy at once.
 // Every object is freed with delete().

@@ -1,4 +1,4 @@
-// States: between the named tables of the WASM side and the nested object of the contract.
+// States: between the named tables of the WASM side and the nested object of docs/state-and-report.md.
 //
 // A table "influences/weights" is the field `weights` of the object `influences`; one number, one
 // column and several columns become a number, a flat array and an array of rows. The tables of a
@@ -14,7 +14,7 @@ export interface HandleState {
   targets: number[][];
 }
 
-/** What `deformer.state()` gives: plain data, in the input's coordinates; fields as in the contract. */
+/** What `deformer.state()` gives: plain data, in the input's coordinates; fields as in docs/state-and-report.md. */
 export interface State {
   handles: HandleState[];
   [field: string]: unknown;

@@ -46,7 +46,7 @@ export interface Refinement {
 }
 
 /**
- * What `sketch.state()` gives: plain data; fields as in the contract. A bend takes a vertex v to T(s) + R (v - C(s)): C
+ * What `sketch.state()` gives: plain data; fields as in docs/state-and-report.md. A bend takes a vertex v to T(s) + R (v - C(s)): C
  * and T are the reference and the target at s, linear between nodes of equal steps, R turns by its angle about the normal.
  */
 export interface SketchState {

@@ -2,7 +2,7 @@
 
 import { choice, type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
 
-/** The contract's CAMERA. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
+/** CAMERA of docs/edit-script.md. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
 export interface Camera {
   eye: ArrayLike<number>;
   target: ArrayLike<number>;

@@ -1,4 +1,4 @@
-// The edit script as callers write it, and what comes of it (contract, section 3).
+// The edit script as callers write it, and what comes of it (docs/edit-script.md, docs/state-and-report.md).
 
 import type { FloatArray } from "../boundary/check.js";
 import type { Step } from "../deform/deformer.js";

@@ -1,4 +1,4 @@
-// The methods of the contract, and those this build has.
+// The methods there are, and names that are kept for others.
 
 import { type Place } from "../boundary/check.js";
 import { arap, type ArapOptions } from "./arap.js";

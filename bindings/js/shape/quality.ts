@@ -1,4 +1,4 @@
-// Quality measures of a deformation, one meaning everywhere (contract, section 2: `compare`).
+// Quality measures of a deformation, one meaning everywhere (the command's `compare`, reports).
 
 import { coordinates, fields, flag, Place, toSpace } from "../boundary/check.js";
 import type { Core } from "../boundary/core.js";

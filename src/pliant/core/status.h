@@ -9,7 +9,7 @@
 
 namespace pliant {
 
-/// The stable error codes of the contract; `error_code_name` gives their public spelling.
+/// The stable error codes of docs/errors.md; `error_code_name` gives their public spelling.
 enum class ErrorCode {
   ok,
   invalid_shape,

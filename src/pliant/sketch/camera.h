@@ -15,7 +15,7 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 };
 
-/// The contract's CAMERA. Pixels are square, their origin the top left corner of the picture, y
+/// CAMERA of docs/edit-script.md. Pixels are square, their origin the top left corner of the picture, y
 /// down.
 struct CameraOptions {
   Eigen::Vector3d eye = Eigen::Vector3d::UnitZ();

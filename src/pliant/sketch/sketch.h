@@ -120,7 +120,7 @@ class Sketch final : public Deformation {
   /// Targets for another solver: rigid parts whole, of the region vertices no closer to one another
   /// than `spacing` diagonals (at least 0).
   SketchSeed seed(double spacing = 0.05) const;
-  /// The tables of the contract, section 3; see sketch/state.cpp for those beside them.
+  /// The tables of docs/state-and-report.md; see sketch/state.cpp for those beside them.
   State save() const override;
   /// Needs `pose` and `morph`, over the `labels` and the `reference` of this sketch; spline controls
   /// are in the pose, as set_pose has it. Vertices that a refinement added have to be those of now;

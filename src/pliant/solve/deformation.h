@@ -30,7 +30,7 @@ class Deformation {
 
   /// Back to rest, bit for bit; what was chosen to be held or moved stays so.
   virtual void reset() = 0;
-  /// Everything needed to recompute the result without Pliant (contract, section 3).
+  /// Everything needed to recompute the result without Pliant (docs/state-and-report.md).
   virtual State save() const = 0;
   /// Takes what was saved of the same kind on the same shape.
   /// Errors: invalid_option (a field is missing or does not fit); nothing has changed then.

@@ -10,7 +10,7 @@ namespace pliant {
 
 /// A table of numbers: `data.size() / columns` rows, row after row; columns = 0 means one scalar.
 struct StateTable {
-  std::string name;  ///< as in the contract; "handles/vertices" is a field of a list of objects
+  std::string name;  ///< as in docs/state-and-report.md; "handles/vertices" is a field of a list of objects
   int columns = 1;
   bool integral = false;
   std::vector<double> data;

@@ -260,7 +260,7 @@ function liveStep(doc: Doc): DocumentStep | undefined {
 /** A document that ends as the present stands: see `finishedStep`. */
 export const finishedDocument = (doc: Doc, step: DocumentStep): EditDocument => documentOf([...doc.done, step]);
 
-/** The document as an edit script (contract, section 3), with steps that follow the present one. */
+/** The document as an edit script (docs/edit-script.md), with steps that follow the present one. */
 export function editScript(doc: Doc, after: readonly DocumentStep[] = []): EditDocument {
   const grab = asksForSomething(doc) || doc.done.length === 0 ? grabStep(doc, doc.grab.entries, patience) : undefined;
   const present = doc.sketch ? finishedStep(doc) : grab;

@@ -50,7 +50,7 @@ export function rotated(m: Motion, axis: Vec3, radians: number): Motion {
 export const inPlane = (m: Motion): Motion =>
   ({ translate: [m.translate[0], m.translate[1], 0], rotation: [0, 0, m.rotation[2]] });
 
-/** The contract's TRANSFORM; points have `dimension` numbers. */
+/** TRANSFORM of docs/edit-script.md; points have `dimension` numbers. */
 export function asTransform(m: Motion, about: Vec3, dimension: 2 | 3) {
   const angle = angleOf(m.rotation);
   const translate = m.translate.slice(0, dimension);

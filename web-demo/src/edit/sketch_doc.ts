@@ -6,7 +6,7 @@ import type { Vec3 } from "./motion.ts";
 export type Pixel = readonly [number, number];
 export type Profile = readonly (readonly [number, number])[];
 
-/** CAMERA of the contract, section 3. */
+/** CAMERA of docs/edit-script.md. */
 export interface SketchCamera {
   readonly eye: Vec3;
   readonly target: Vec3;
@@ -139,7 +139,7 @@ function drawingOf({ camera, reference, region, partitions, mirror, smooth }: Sk
 
 const steps = new WeakMap<SketchDoc, DocumentStep>();
 
-/** The step of the edit script (contract, section 3); the same sketch gives the same object. */
+/** The step of the edit script (docs/edit-script.md); the same sketch gives the same object. */
 export function sketchStep(sketch: SketchDoc): DocumentStep {
   const known = steps.get(sketch);
   if (known) return known;

@@ -1,4 +1,4 @@
-// Options of ARAP (contract, section 3).
+// Options of ARAP.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Options of material-aware edges (contract, section 3).
+// Options of material-aware edges.
 #pragma once
 
 #include <optional>

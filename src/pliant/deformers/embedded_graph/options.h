@@ -1,4 +1,4 @@
-// Options of the embedded deformation graph (contract, section 3).
+// Options of the embedded deformation graph.
 #pragma once
 
 #include <cstdint>
