@@ -48,7 +48,8 @@ export async function compile(options: InitOptions, beside: () => Promise<Binary
   } catch (error) {
     // A policy against compiling refuses what is valid, too.
     const wrong = wasmBinary && !WebAssembly.validate(wasmBinary);
-    throw wrong ? notOurs(source, error) : new PliantError("load-failed", `${source} cannot be loaded: ${reasonOf(error)}`, { cause: error });
+    if (wrong) throw notOurs(source, error);
+    throw new PliantError("load-failed", `${source} cannot be loaded: ${reasonOf(error)}`, { cause: error });
   }
 }
 
@@ -68,7 +69,8 @@ export async function instantiate<T extends { Scratch?: unknown }>(factory: Modu
 }
 
 function notOurs(source: string, error: unknown): PliantError {
-  return new PliantError("invalid-option", `${source} cannot be used: ${reasonOf(error)}; expected the pliant.wasm of this version`, { cause: error });
+  const message = `${source} cannot be used: ${reasonOf(error)}; expected the pliant.wasm of this version`;
+  return new PliantError("invalid-option", message, { cause: error });
 }
 
 function reasonOf(error: unknown): string {

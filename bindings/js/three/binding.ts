@@ -26,13 +26,15 @@ export class GeometryBinding {
   readonly #frames: TangentFrames | undefined;
   readonly #targets: { position: Target[]; normal: Target[] };
 
-  /** Takes the geometry as it is now for the shape at rest. Normals and tangents follow where it has them. Errors: invalid-shape. */
+  /** Takes the geometry as it is now for the shape at rest. Errors: invalid-shape. */
   constructor(geometry: BufferGeometry) {
     this.geometry = geometry;
     this.#positions = restOf(geometry);
     const triangles = trianglesOf(geometry, this.#positions.length / 3);
     const [position, normal, tangent] = ["position", "normal", "tangent"].map((name) => floatAttribute(geometry, name));
-    this.#targets = { position: absoluteTargets(geometry, "position", position), normal: absoluteTargets(geometry, "normal", normal) };
+    this.#targets = {
+      position: absoluteTargets(geometry, "position", position), normal: absoluteTargets(geometry, "normal", normal),
+    };
     if (!normal || triangles.length === 0) return;
     this.#normals = readAttribute(normal);
     this.#groups = new NormalGroups(this.#positions, this.#normals, triangles);
@@ -70,7 +72,9 @@ export class GeometryBinding {
   #put(name: "position" | "normal" | "tangent", values: Float32Array): void {
     writeAttribute(this.geometry.getAttribute(name), values);
     if (name === "tangent") return;
-    for (const { attribute, offsets } of this.#targets[name]) writeAttribute(attribute, offsets.map((offset, i) => values[i] + offset));
+    for (const { attribute, offsets } of this.#targets[name]) {
+      writeAttribute(attribute, offsets.map((offset, i) => values[i] + offset));
+    }
   }
 }
 

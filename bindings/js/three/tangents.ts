@@ -46,7 +46,8 @@ type Vector = ArrayLike<number>;
 
 function edges(p: Float32Array, triangles: Uint32Array, first: number): [Vector, Vector] {
   const [a, b, c] = [3 * triangles[first], 3 * triangles[first + 1], 3 * triangles[first + 2]];
-  return [[p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]], [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]]];
+  const edge = (to: number) => [p[to] - p[a], p[to + 1] - p[a + 1], p[to + 2] - p[a + 2]];
+  return [edge(b), edge(c)];
 }
 
 function dot(a: Vector, b: Vector): number {
