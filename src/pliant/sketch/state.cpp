@@ -87,9 +87,9 @@ std::vector<double> numbers_of(const std::optional<Refinement>& refinement) {
 }  // namespace
 
 /// Beside the tables of docs/state-and-report.md: `pose` and `morph`, all that `restore` needs; `normals`, the axes of
-/// `angles`, one a side; with a mirror `sides` (of every vertex: 0 drawn, 1 mirrored), and the curves of the second side follow those
-/// of the first. With twist or scale: `joints`, `twists` (right-handed about the joints' curve) and `scales`, applied
-/// before the bend; where nothing bends `angles` are the twists.
+/// `angles`, one a side; with a mirror `sides` (of every vertex: 0 drawn, 1 mirrored), and the curves of the second
+/// side follow those of the first. With twist or scale: `joints`, `twists` (right-handed about the joints' curve) and
+/// `scales`, applied before the bend; where nothing bends `angles` are the twists.
 State Sketch::save() const {
   const Impl& impl = *impl_;
   const SketchPose pose = impl.whole_pose();
