@@ -10,7 +10,6 @@ import { ball, tube } from "../../web-demo/shapes/parts.mjs";
 import { History } from "../../web-demo/src/edit/history.ts";
 import { asTransform, atRest, bestMotion, quaternionOf, rotated, rotationVector, type Vec3 } from "../../web-demo/src/edit/motion.ts";
 import { shared } from "../../bindings/js/edit/same.ts";
-import { rewriteObj } from "../../web-demo/src/files/read_obj.ts";
 import { bumpyPlane } from "../../web-demo/src/shapes/bumpy_plane.ts";
 import { decodeMesh, type PlainMesh } from "../../web-demo/src/shapes/decode.ts";
 import { subdivide } from "../../web-demo/src/shapes/subdivide.ts";
@@ -179,10 +178,4 @@ test("nodes of a rigidly moved graph have no energy, those of a stretched one ha
   const stretched = nodes.map(([x]) => [x!, 0, 0]);
   const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
   expect(nodeEnergies({ nodes, edges, rotations: nodes.map(() => identity), translations: stretched }, 1)[1]).toBeGreaterThan(1);
-});
-
-test("an OBJ is rewritten in its coordinates only", () => {
-  const text = "v 1 2 3 0.5 0.5 0.5\n  v\t4  5 6\r\nvn 1 0 0\nvt 0 1\n# v 9 9 9\nf 1 2 2\n";
-  expect(rewriteObj(text, Float32Array.of(0.1, 2, 3, -4, 5e-9, 6)))
-    .toBe("v 0.1 2 3 0.5 0.5 0.5\n  v\t-4 5e-9 6\r\nvn 1 0 0\nvt 0 1\n# v 9 9 9\nf 1 2 2\n");
 });

@@ -48,6 +48,7 @@ export class App {
   private opened: ShapeData | undefined;
   private stale = true;
   private opening = false;
+  private reading: AbortController | undefined;
 
   static async start(): Promise<App> {
     let app: App | undefined;
@@ -126,11 +127,28 @@ export class App {
   }
 
   openEntry(id: string): Promise<void> {
+    this.reading?.abort();
     return this.open(() => entryOf(id).make());
   }
 
   openFile(file: File): Promise<void> {
-    return this.open(() => loadFile(file));
+    return this.open(() => this.read(file));
+  }
+
+  /** Reads a file while the page goes on; the visitor sees how far it is and may stop it, as another file does. */
+  private async read(file: File): Promise<ShapeData> {
+    this.reading?.abort();
+    const own = new AbortController();
+    this.reading = own;
+    const show = (fraction: number | undefined) => {
+      if (this.reading === own) this.chrome.reading(file.name, fraction, () => own.abort());
+    };
+    show(0);
+    try {
+      return await loadFile(file, { signal: own.signal, onProgress: ({ fraction }) => show(fraction) });
+    } finally {
+      show(undefined);
+    }
   }
 
   /** Shows a shape when it is there; what goes wrong is told. */

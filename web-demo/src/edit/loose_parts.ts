@@ -9,8 +9,8 @@ export class LooseParts {
   private riders: Rider[] = [];
   private free: Rider[] = [];
 
-  take(shape: ShapeData, topology: Topology): void {
-    this.riders = ridersOf(shape, topology);
+  take(shape: ShapeData, topology: Topology | undefined): void {
+    this.riders = topology ? ridersOf(shape, topology) : [];
     this.free = [];
   }
 

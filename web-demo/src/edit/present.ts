@@ -1,7 +1,8 @@
 // The present: a document, the solver that carries it out, and what of it is on the screen, kept in step.
 import type { Options } from "../methods.ts";
-import { Meter, type Measures } from "../shapes/measure.ts";
+import { Meter, signedVolume, type Measures } from "../shapes/measure.ts";
 import { refinedShape } from "../shapes/refined.ts";
+import { mostRiders } from "../shapes/riders.ts";
 import { vertexCount, type ShapeData } from "../shapes/shape.ts";
 import { topologyOf, type Topology } from "../shapes/topology.ts";
 import { EditClient, type Picture } from "../solver/edit_client.ts";
@@ -45,7 +46,9 @@ export class Present {
   sketched: SketchView | undefined;
   /** The shape on the screen: the document's, or with what refinement added. */
   shown!: ShapeData;
-  topology!: Topology;
+  private joined: Topology | undefined;
+  /** A closed surface whose triangles look outwards: its inside is never seen. */
+  solid = false;
   report!: ShapeReport & { diagonal: number };
   positions!: Float32Array;
   normals!: Float32Array;
@@ -81,11 +84,12 @@ export class Present {
     return this.doc.handles.find((h) => h.id === id);
   }
 
-  /** A closed surface whose triangles look outwards: its inside is never seen. */
-  get solid(): boolean {
-    return (this.meter.volume ?? 0) > 0;
+  /** What lies beside what, found when it is first asked for. */
+  get topology(): Topology {
+    return (this.joined ??= topologyOf(this.doc.shape));
   }
 
+  /** The newest figures there are; a frame is told when there are others. */
   measures(): Measures {
     return this.meter.measure(this.positions);
   }
@@ -130,11 +134,15 @@ export class Present {
   private takeShape({ opened, shape }: Doc, report: ShapeReport & { diagonal: number }): void {
     const first = opened !== (this.doc as Doc | undefined)?.opened;
     this.report = { ...report, vertices: vertexCount(shape), triangles: shape.triangles.length / 3 };
-    this.topology = topologyOf(shape);
-    this.looseParts.take(shape, this.topology);
+    this.joined = undefined;
+    // Loose parts that ride are few; a soup or a scan in one piece need not be looked through.
+    if (report.components > 1 && report.components <= 1 + mostRiders) this.looseParts.take(shape, (this.joined = topologyOf(shape)));
+    else this.looseParts.take(shape, undefined);
     if (!first && this.meter) return;
     const closed = opened.triangles.length > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;
-    this.meter = new Meter(opened, shape === opened ? this.topology : topologyOf(opened), closed);
+    this.solid = closed && signedVolume(opened) > 0;
+    void this.meter?.dispose();
+    this.meter = new Meter(opened, () => this.events.frame());
   }
 
   private async finishSketch(): Promise<void> {

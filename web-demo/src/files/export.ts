@@ -1,19 +1,37 @@
 // Downloads: the present, as files.
+import type { WritableShape } from "pliant/worker";
 import type { Present } from "../edit/present.ts";
-import { writeGlb } from "./write_glb.ts";
-import { writeObj } from "./write_obj.ts";
+import type { ShapeData } from "../shapes/shape.ts";
+import { connect } from "../solver/pliant.ts";
 
 export type ExportKind = "obj" | "glb" | "script";
 
 /** The user's file without its ending, or the shape's own name. */
 const baseName = ({ id, name }: { id: string; name: string }) => (id === "file" ? name.replace(/\.[^.]*$/, "") : id);
 
+const types = { obj: "model/obj", glb: "model/gltf-binary" };
+
 export async function download(present: Present, kind: ExportKind): Promise<void> {
-  const { doc, shown, positions, normals } = present;
+  const { doc, shown, positions } = present;
   const base = baseName(doc.shape);
-  if (kind === "obj") save(`${base}-bent.obj`, "model/obj", writeObj(shown, positions));
-  if (kind === "glb") save(`${base}-bent.glb`, "model/gltf-binary", await writeGlb(shown, positions, normals));
-  if (kind === "script") save(`${base}-edit.json`, "application/json", JSON.stringify(present.script(), undefined, 1));
+  if (kind === "script") {
+    save(`${base}-edit.json`, "application/json", JSON.stringify(present.script(), undefined, 1));
+    return;
+  }
+  const name = `${base}-bent.${kind}`;
+  save(name, types[kind], await (await connect()).write(await asFile(shown, positions), name));
+}
+
+/** What is to be written: the visitor's file with its vertices elsewhere, or the shape as the page knows it. */
+async function asFile({ file, triangles, colors, picture }: ShapeData, positions: Float32Array): Promise<WritableShape> {
+  if (file) return { ...file, positions };
+  const texture = picture && (await png(picture.image));
+  const texcoords = picture && Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
+  return { positions, triangles, ...(colors ? { colors } : {}), ...(texture ? { texture } : {}), ...(texcoords ? { texcoords } : {}) };
+}
+
+async function png(image: TexImageSource): Promise<Blob> {
+  return new Promise((resolve) => (image as HTMLCanvasElement).toBlob((blob) => resolve(blob!), "image/png"));
 }
 
 function save(name: string, type: string, content: string | Uint8Array<ArrayBuffer>): void {

@@ -1,7 +1,8 @@
-// The two figures of the readout that need every vertex: stretch and volume, as `pliant compare`
-// defines them.
+// The two figures of the readout that need every vertex, stretch and volume: measured by the library in its worker, the
+// newest positions after those before, never faster than a reader of the figures can follow.
+import type { WorkerShape } from "pliant/worker";
+import { connect } from "../solver/pliant.ts";
 import type { ShapeData } from "./shape.ts";
-import { distinctEdges, type Topology } from "./topology.ts";
 
 export interface Measures {
   /** Mean |l'/l - 1| over the edges; undefined for points. */
@@ -10,7 +11,66 @@ export interface Measures {
   volume?: number;
 }
 
-function signedVolume(positions: Float32Array, triangles: Uint32Array): number {
+/** Milliseconds between two measurements, so that the solver has the worker most of the time. */
+const breath = 250;
+
+const flat = (positions: ArrayLike<number>, dimension: 2 | 3) =>
+  dimension === 3 ? positions : Float64Array.from({ length: (2 * positions.length) / 3 }, (_, i) => positions[3 * (i >> 1) + (i & 1)]!);
+
+/** Measures deformed positions against the rest. */
+export class Meter {
+  private last: Measures = {};
+  private measured: ArrayLike<number> | undefined;
+  private wanted: ArrayLike<number> | undefined;
+  private running = false;
+  private shape: Promise<WorkerShape> | undefined;
+
+  /** `tell`: there are new figures. */
+  constructor(private readonly rest: ShapeData, private readonly tell: () => void) {}
+
+  /** The newest figures there are; those of these positions follow. */
+  measure(positions: ArrayLike<number>): Measures {
+    const fits = positions.length === this.rest.positions.length; // not so with what refinement added
+    if (this.rest.triangles.length > 0 && fits && positions !== this.measured) {
+      this.wanted = positions;
+      if (!this.running) void this.run();
+    }
+    return this.last;
+  }
+
+  /** Frees what the worker holds for it. */
+  async dispose(): Promise<void> {
+    this.wanted = undefined;
+    await (await this.shape?.catch(() => undefined))?.dispose();
+  }
+
+  private async run(): Promise<void> {
+    this.running = true;
+    while (this.wanted) {
+      this.measured = this.wanted;
+      this.wanted = undefined;
+      try {
+        this.last = await this.ask(this.measured);
+        this.tell();
+      } catch {
+        this.last = {}; // it cannot be measured: no figure is shown
+      }
+      await new Promise((resolve) => setTimeout(resolve, breath));
+    }
+    this.running = false;
+  }
+
+  private async ask(positions: ArrayLike<number>): Promise<Measures> {
+    const pliant = await connect();
+    const { exact, positions: rest, triangles, dimension } = this.rest;
+    this.shape ??= pliant.shape({ positions: flat(exact ?? rest, dimension), triangles, dimension });
+    const { stretch, volume } = await pliant.measure(await this.shape, flat(positions, dimension), { intersections: false });
+    return { stretch: stretch.mean, ...(volume === null ? {} : { volume }) };
+  }
+}
+
+/** Of a closed surface: positive where its triangles look outwards. */
+export function signedVolume({ positions, triangles }: Pick<ShapeData, "positions" | "triangles">): number {
   let sum = 0;
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [3 * triangles[t]!, 3 * triangles[t + 1]!, 3 * triangles[t + 2]!];
@@ -20,39 +80,4 @@ function signedVolume(positions: Float32Array, triangles: Uint32Array): number {
     sum += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
   }
   return sum / 6;
-}
-
-/** Measures deformed positions against the rest, again and again. */
-export class Meter {
-  private readonly edges: Uint32Array;
-  private readonly lengths: Float64Array;
-  /** At rest; undefined unless closed. */
-  readonly volume: number | undefined;
-
-  constructor(private readonly shape: ShapeData, topology: Topology, closed: boolean) {
-    this.edges = distinctEdges(shape, topology);
-    this.lengths = new Float64Array(this.edges.length / 2);
-    for (let e = 0; e < this.lengths.length; e++) this.lengths[e] = this.edgeLength(shape.positions, e);
-    const volume = signedVolume(shape.positions, shape.triangles);
-    if (closed && volume !== 0) this.volume = volume;
-  }
-
-  private edgeLength(p: Float32Array, e: number): number {
-    const [a, b] = [3 * this.edges[2 * e]!, 3 * this.edges[2 * e + 1]!];
-    const [x, y, z] = [p[a]! - p[b]!, p[a + 1]! - p[b + 1]!, p[a + 2]! - p[b + 2]!];
-    return Math.sqrt(x * x + y * y + z * z);
-  }
-
-  measure(positions: Float32Array): Measures {
-    let [sum, count] = [0, 0];
-    for (let e = 0; e < this.lengths.length; e++) {
-      if (this.lengths[e] === 0) continue;
-      sum += Math.abs(this.edgeLength(positions, e) / this.lengths[e]! - 1);
-      count++;
-    }
-    const measures: Measures = {};
-    if (count > 0) measures.stretch = sum / count;
-    if (this.volume !== undefined) measures.volume = signedVolume(positions, this.shape.triangles) / this.volume;
-    return measures;
-  }
 }

@@ -22,7 +22,7 @@ export function refinedShape(shape: ShapeData, refinement: Refinement | undefine
   if (!refinement || refinement.parents.length === 0) return shape;
   if (last?.shape === shape && last.refinement === refinement) return last.result;
   const { parents, triangles } = refinement;
-  const { objText: _, exact: __, ...rest } = shape; // the text names the old faces only
+  const { file: _, exact: __, ...rest } = shape; // the file names the old faces only
   const result: ShapeData = {
     ...rest, triangles, positions: carried(shape.positions, 3, parents),
     ...(shape.colors ? { colors: carried(shape.colors, 3, parents) } : {}),

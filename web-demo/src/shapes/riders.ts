@@ -15,6 +15,8 @@ type Floats = Float32Array | Float64Array;
 
 /** Largest share of the diagonal of a part that rides. */
 const largest = 0.3;
+/** With more loose parts than this none rides. */
+export const mostRiders = 64;
 /** Vertices of a rider whose nearest neighbours are its anchors. */
 const feelers = 48;
 
@@ -48,7 +50,7 @@ export function ridersOf(shape: ShapeData, topology: Topology): Rider[] {
   const size = (part: Uint32Array) => boundingBox(Float32Array.from(part, (v) => positions[3 * v]!)
     .reduce<number[]>((all, x, i) => (all.push(x, positions[3 * part[i]! + 1]!, positions[3 * part[i]! + 2]!), all), [])).diagonal;
   const small = parts.filter((part, i) => i > 0 && part.length < parts[0]!.length / 5 && size(part) < largest * diagonal);
-  if (small.length === 0 || small.length > 64) return [];
+  if (small.length === 0 || small.length > mostRiders) return [];
   const body = parts.filter((part) => !small.includes(part)).flatMap((part) => [...part]);
   const nearest = (v: number) => {
     let [best, least] = [0, Infinity];

@@ -1,5 +1,6 @@
 // What the page knows about a shape at rest, wherever it came from.
 
+import type { ShapeFile } from "pliant/worker";
 import type { Options } from "../options.ts";
 
 export interface ShapeData {
@@ -8,7 +9,7 @@ export interface ShapeData {
   name: string;
   /** 3 n coordinates, vertex by vertex; z = 0 throughout where `dimension` is 2. */
   positions: Float32Array;
-  /** The same in double, where they are the result of an earlier step: scripts go on from those. */
+  /** The same in double, where they come from a file or an earlier step: scripts go on from those. */
   exact?: Float64Array;
   /** 3 m vertex ids; empty: points. */
   triangles: Uint32Array;
@@ -17,8 +18,8 @@ export interface ShapeData {
   colors?: Uint8Array;
   /** A picture that lies on the shape: 2 n texture coordinates, v up. */
   picture?: { image: TexImageSource; uv: Float32Array };
-  /** The text of the OBJ file it came from: exports keep everything in it but the coordinates. */
-  objText?: string;
+  /** The file it came from: exports keep everything in it but the coordinates. */
+  file?: ShapeFile;
   /** The pose a visitor finds: regions in rest coordinates. */
   start?: StartPose;
   /** Where the camera looks from, a direction; default: from the front, right and above. */
@@ -55,10 +56,14 @@ export interface Box {
 export function boundingBox(positions: ArrayLike<number>): Box {
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < positions.length; i++) {
-    const k = i % 3;
-    min[k] = Math.min(min[k]!, positions[i]!);
-    max[k] = Math.max(max[k]!, positions[i]!);
+  for (let k = 0; k < 3; k++) {
+    let [least, most] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      const x = positions[i]!;
+      if (x < least) least = x;
+      if (x > most) most = x;
+    }
+    [min[k], max[k]] = [least, most];
   }
   const center: [number, number, number] = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   return { min, max, center, diagonal: Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) };

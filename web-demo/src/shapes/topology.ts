@@ -17,14 +17,37 @@ export interface Topology {
 
 function weld(positions: Float32Array): { pointOf: Uint32Array; points: number } {
   const pointOf = new Uint32Array(positions.length / 3);
-  const seen = new Map<string, number>();
+  let size = 4;
+  while (size < 2 * pointOf.length) size *= 2;
+  const table = new Int32Array(size).fill(-1); // vertices, by what their coordinates hash to
+  let points = 0;
   for (let v = 0; v < pointOf.length; v++) {
-    const key = `${positions[3 * v]! + 0},${positions[3 * v + 1]! + 0},${positions[3 * v + 2]! + 0}`;
-    const point = seen.get(key) ?? seen.size;
-    seen.set(key, point);
-    pointOf[v] = point;
+    const [x, y, z] = [positions[3 * v]! + 0, positions[3 * v + 1]! + 0, positions[3 * v + 2]! + 0];
+    let slot = hashOf(x, y, z) & (size - 1);
+    for (let other = table[slot]!; other >= 0 && !(positions[3 * other] === x && positions[3 * other + 1] === y && positions[3 * other + 2] === z);) {
+      slot = (slot + 1) & (size - 1);
+      other = table[slot]!;
+    }
+    if (table[slot]! < 0) {
+      table[slot] = v;
+      pointOf[v] = points++;
+    } else {
+      pointOf[v] = pointOf[table[slot]!]!;
+    }
   }
-  return { pointOf, points: seen.size };
+  return { pointOf, points };
+}
+
+const bits = new Uint32Array(new Float32Array(3).buffer);
+const floats = new Float32Array(bits.buffer);
+
+function hashOf(x: number, y: number, z: number): number {
+  floats[0] = x;
+  floats[1] = y;
+  floats[2] = z;
+  let hash = Math.imul(bits[0]!, 0x9e3779b1) ^ Math.imul(bits[1]!, 0x85ebca6b) ^ Math.imul(bits[2]!, 0xc2b2ae35);
+  hash ^= hash >>> 15;
+  return Math.imul(hash, 0x2c1b3c6d) >>> 7;
 }
 
 /** Lists of values grouped by a key 0..count-1. */
@@ -49,25 +72,6 @@ export function topologyOf(shape: ShapeData): Topology {
     pointOf, points, vertexStart: own.start, vertices: own.values,
     nextStart: beside.start, next: beside.values, scattered: corners < points,
   };
-}
-
-/** The distinct edges as pairs of vertices (one of each point), flat. */
-export function distinctEdges(shape: ShapeData, topology: Topology): Uint32Array {
-  const keys = new Float64Array(shape.triangles.length);
-  for (let i = 0; i < keys.length; i++) {
-    const a = topology.pointOf[shape.triangles[i]!]!;
-    const b = topology.pointOf[shape.triangles[i % 3 === 2 ? i - 2 : i + 1]!]!;
-    keys[i] = Math.min(a, b) * topology.points + Math.max(a, b);
-  }
-  keys.sort();
-  const edges: number[] = [];
-  for (let i = 0; i < keys.length; i++) {
-    if (i > 0 && keys[i] === keys[i - 1]) continue;
-    const a = Math.floor(keys[i]! / topology.points);
-    const b = keys[i]! % topology.points;
-    if (a !== b) edges.push(topology.vertices[topology.vertexStart[a]!]!, topology.vertices[topology.vertexStart[b]!]!);
-  }
-  return Uint32Array.from(edges);
 }
 
 /**

@@ -5,4 +5,5 @@ export type {
   EditDocument, EditMoment, EditRun, ScriptAnyStep as DocumentStep, ShapeReport, SketchView, State, WorkerEdit, WorkerPliant, WorkerShape,
 } from "pliant/worker";
 
+/** Every call gives the same worker. */
 export const connect = (): Promise<WorkerPliant> => init({ inline: true });

@@ -21,6 +21,8 @@ export interface Chrome {
   say(text: string): void;
   /** Something is being made ready. */
   busy(on: boolean): void;
+  /** A file is being read: how much of it, from 0 to 1; undefined: none is. `cancel` follows a wish to stop. */
+  reading(name: string, fraction: number | undefined, cancel?: () => void): void;
 }
 
 export function bindChrome(actions: ChromeActions): Chrome {
@@ -47,11 +49,21 @@ export function bindChrome(actions: ChromeActions): Chrome {
     },
     hint: (text) => (byId("hint").textContent = text),
     busy: (on) => byId("stage").setAttribute("aria-busy", String(on)),
+    reading: showReading,
     say: (text) => {
       notice.hidden = text === "";
       notice.querySelector("span")!.textContent = text;
     },
   };
+}
+
+function showReading(name: string, fraction: number | undefined, cancel?: () => void): void {
+  const box = byId("reading");
+  box.hidden = fraction === undefined;
+  if (fraction === undefined) return;
+  box.querySelector("span")!.textContent = `Reading ${name}: ${Math.round(100 * fraction)} %`;
+  box.querySelector("progress")!.value = fraction;
+  byId("reading-cancel").onclick = cancel ?? null;
 }
 
 function bindKeys(actions: ChromeActions, help: HTMLDialogElement): void {

@@ -2,9 +2,6 @@
 import type { Present } from "../edit/present.ts";
 import { byId, make } from "./dom.ts";
 
-/** Triangles that can be measured with every frame; larger shapes only at rest. */
-const quick = 200_000;
-
 const percent = (x: number | undefined) => (x === undefined ? "–" : `${(100 * x).toFixed(1)} %`);
 
 function figure(x: number | undefined): string {
@@ -38,11 +35,9 @@ export class Readout {
     this.set("energy", figure(step?.energy));
     this.set("iterations", step ? String(step.iteration) : "–");
     this.set("ms", step ? `${step.milliseconds.toFixed(1)} ms` : "–");
-    if (!step || step.converged || report.triangles < quick) {
-      const { stretch, volume } = this.present.measures();
-      this.set("volume", percent(volume));
-      this.set("stretch", percent(stretch));
-    }
+    const { stretch, volume } = this.present.measures();
+    this.set("volume", percent(volume));
+    this.set("stretch", percent(stretch));
     this.set("vertices", report.vertices.toLocaleString("en"));
   }
 
