@@ -97,8 +97,11 @@ export function withMotion(doc: Doc, id: number, motion: Motion): Doc {
   return { ...doc, handles: doc.handles.map((h) => (h.id === id ? { ...h, motion: possible } : h)) };
 }
 
-const vertexIds = (shape: ShapeData, inside: (v: number) => boolean): Uint32Array =>
-  Uint32Array.from({ length: vertexCount(shape) }, (_, v) => v).filter(inside);
+function vertexIds(shape: ShapeData, inside: (v: number) => boolean): Uint32Array {
+  const ids: number[] = [];
+  for (let v = 0; v < vertexCount(shape); v++) if (inside(v)) ids.push(v);
+  return Uint32Array.from(ids);
+}
 
 const point = (shape: ShapeData, v: number): [number, number, number] =>
   [shape.positions[3 * v]!, shape.positions[3 * v + 1]!, shape.positions[3 * v + 2]!];

@@ -1,5 +1,6 @@
 // The present: a document, the solver that carries it out, and what of it is on the screen, kept in step.
 import type { Options } from "../methods.ts";
+import { turn } from "../files/turn.ts";
 import { Meter, signedVolume, type Measures } from "../shapes/measure.ts";
 import { refinedShape } from "../shapes/refined.ts";
 import { mostRiders } from "../shapes/riders.ts";
@@ -116,6 +117,7 @@ export class Present {
   async enter({ doc, edit }: Moment): Promise<void> {
     const old = this.doc as Doc | undefined;
     const report = await this.client.open(doc.opened);
+    if (doc.opened !== old?.opened) await turn(); // it may be large, and was looked through just now
     if (doc.shape !== old?.shape) this.takeShape(doc, report);
     this.doc = doc;
     this.step = this.state = this.sketched = this.previewed = undefined;

@@ -3,6 +3,7 @@ import type { ReadOptions, ShapeFile } from "pliant/worker";
 import type { ShapeData } from "../shapes/shape.ts";
 import { connect } from "../solver/pliant.ts";
 import { asCanvas, readPicture } from "./picture.ts";
+import { turn } from "./turn.ts";
 
 const shapes = ["obj", "ply", "off", "stl", "glb", "xyz"];
 const pictures = ["png", "jpg", "jpeg", "webp"];
@@ -27,8 +28,11 @@ export async function loadFile(file: File, options: ReadOptions): Promise<ShapeD
 
 async function asShape(file: ShapeFile): Promise<Loaded> {
   const picture = file.texture && (await createImageBitmap(file.texture));
+  await turn();
+  const positions = new Float32Array(file.positions);
+  await turn();
   return {
-    positions: new Float32Array(file.positions), exact: file.positions, triangles: file.triangles, dimension: 3, file,
+    positions, exact: file.positions, triangles: file.triangles, dimension: 3, file,
     ...(picture ? { picture: { image: asCanvas(picture, picture.width, picture.height), uv: ofVertices(file) } } : {}),
     ...(!picture && file.colors.length > 0 ? { colors: file.colors } : {}),
   };
