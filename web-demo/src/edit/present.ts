@@ -116,8 +116,8 @@ export class Present {
   /** Makes a moment the present: what differs is carried out, and solved on. */
   async enter({ doc, edit }: Moment): Promise<void> {
     const old = this.doc as Doc | undefined;
-    const report = await this.client.open(doc.opened);
     if (doc.opened !== old?.opened) await turn(); // it may be large, and was looked through just now
+    const report = await this.client.open(doc.opened);
     if (doc.shape !== old?.shape) this.takeShape(doc, report);
     this.doc = doc;
     this.step = this.state = this.sketched = this.previewed = undefined;
