@@ -56,16 +56,16 @@ void append_real(std::string& out, double number) {
 
 }  // namespace
 
-void Piece::append_to(std::string& out) const {
+void Word::append_to(std::string& out) const {
   if (kind_ == Kind::text) out += text_;
   if (kind_ == Kind::whole) out += std::to_string(whole_);
   if (kind_ == Kind::real) append_real(out, real_);
 }
 
-std::string message(Pieces pieces) {
+std::string message(Words words) {
   std::string out;
-  for (const Piece& piece : pieces) {
-    piece.append_to(out);
+  for (const Word& word : words) {
+    word.append_to(out);
   }
   return out;
 }

@@ -10,13 +10,13 @@
 namespace pliant {
 
 /// A word or a number of a message.
-class Piece {
+class Word {
  public:
-  Piece(const char* text) : text_(text) {}
-  Piece(const std::string& text) : text_(text) {}
-  Piece(std::string_view text) : text_(text) {}
-  Piece(double number) : kind_(Kind::real), real_(number) {}
-  Piece(std::integral auto number) : kind_(Kind::whole), whole_(static_cast<std::int64_t>(number)) {}
+  Word(const char* text) : text_(text) {}
+  Word(const std::string& text) : text_(text) {}
+  Word(std::string_view text) : text_(text) {}
+  Word(double number) : kind_(Kind::real), real_(number) {}
+  Word(std::integral auto number) : kind_(Kind::whole), whole_(static_cast<std::int64_t>(number)) {}
 
   void append_to(std::string& out) const;
 
@@ -28,10 +28,10 @@ class Piece {
   double real_ = 0.0;
 };
 
-using Pieces = std::initializer_list<Piece>;
+using Words = std::initializer_list<Word>;
 
-/// The pieces one behind the other: whole numbers with every digit, others with six significant ones and spelled as
-/// JavaScript does (1e-7, 2.5e+30, NaN, -Infinity). They refer to what they were made of: for use at once.
-std::string message(Pieces pieces);
+/// Words and numbers one behind the other: whole numbers with every digit, others with six significant ones and spelled
+/// as JavaScript does (1e-7, 2.5e+30, NaN, -Infinity). They refer to what they were made of: for use at once.
+std::string message(Words words);
 
 }  // namespace pliant

@@ -42,4 +42,16 @@ std::vector<Index> order_by(Index count, Key&& key) {
   return order;
 }
 
+/// The items sorted by key(item), equal keys in the order they had.
+template <class Item, class Key>
+std::vector<Item> sorted_by(const std::vector<Item>& items, Key&& key) {
+  std::vector<Item> sorted;
+  sorted.reserve(items.size());
+  const auto key_at = [&](Index i) { return key(items[i]); };
+  for (const Index i : order_by(static_cast<Index>(items.size()), key_at)) {
+    sorted.push_back(items[i]);
+  }
+  return sorted;
+}
+
 }  // namespace pliant

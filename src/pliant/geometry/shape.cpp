@@ -17,7 +17,7 @@
 namespace pliant {
 namespace {
 
-Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
+Status invalid(Words reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
 Status check_length(const char* argument, std::size_t length, int width) {
   if (length % width != 0) {

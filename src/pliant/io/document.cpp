@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::size_t kMaxVertices = Shape::kMaxVertices;
 
-Status invalid(Pieces reason) { return {ErrorCode::invalid_shape, message(reason)}; }
+Status invalid(Words reason) { return {ErrorCode::invalid_shape, message(reason)}; }
 
-Status too_large(Pieces reason) { return {ErrorCode::too_large, message(reason)}; }
+Status too_large(Words reason) { return {ErrorCode::too_large, message(reason)}; }
 
 Status reserve(Bytes& out, std::uint64_t size) {
   if (!memory_suffices(size)) {

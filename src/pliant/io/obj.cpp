@@ -65,7 +65,7 @@ bool is_readable_corner(std::string_view word) {
 
 Status ObjFaceReader::add(std::string_view words, std::uint64_t line, std::uint64_t vertices_before) {
   constexpr std::size_t batch = 1 << 16;
-  const auto fail = [line](Pieces reason) {
+  const auto fail = [line](Words reason) {
     return Status(ErrorCode::parse_error, message({"line ", line, ": ", message(reason)}));
   };
   words = without_comment(words);

@@ -85,7 +85,7 @@ class HeaderParser {
   Result<PlyHeader> parse(std::string_view text);
 
  private:
-  Status failure(Pieces reason) const {
+  Status failure(Words reason) const {
     return {ErrorCode::parse_error, message({"line ", header_.lines + 1, ": ", message(reason)})};
   }
   Status parse_line(std::string_view line);

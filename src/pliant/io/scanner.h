@@ -36,7 +36,7 @@ class Scanner {
   virtual std::string place() const = 0;
 
  protected:
-  Status failure(Pieces reason) const { return {ErrorCode::parse_error, message({place(), ": ", message(reason)})}; }
+  Status failure(Words reason) const { return {ErrorCode::parse_error, message({place(), ": ", message(reason)})}; }
   static Status require_vertices(std::uint64_t count) {
     if (count > 0) {
       return {};

@@ -1,11 +1,11 @@
 #include "pliant/sketch/camera.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
-#include <string>
 
 #include <Eigen/Geometry>
+
+#include "pliant/core/message.h"
 
 namespace pliant {
 namespace {
@@ -14,9 +14,7 @@ constexpr double kMaxPixels = 1e6;
 constexpr double kMaxSize = 1e30;  // as Shape::max_coordinate
 
 Status bad(const char* field, double value, const char* expected) {
-  char text[160];
-  std::snprintf(text, sizeof text, "camera.%s is %.6g; expected %s", field, value, expected);
-  return {ErrorCode::invalid_option, text};
+  return {ErrorCode::invalid_option, message({"camera.", field, " is ", value, "; expected ", expected})};
 }
 
 Status check_vector(const char* field, const Eigen::Vector3d& v) {

@@ -11,6 +11,8 @@
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/throw_exception.hpp>
 
+#include "pliant/core/sort.h"
+
 namespace boost {
 void throw_exception(const std::exception&) { std::abort(); }
 void throw_exception(const std::exception&, const source_location&) { std::abort(); }
@@ -53,8 +55,7 @@ std::vector<Arc> arcs_of(std::span<const Terminal> nodes, std::span<const CutEdg
     arcs.push_back({from, to, sum, pair});  // more than any cut between the nodes
     arcs.push_back({to, from, 0, pair++});
   }
-  std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& x, const Arc& y) { return x.from < y.from; });
-  return arcs;
+  return sorted_by(arcs, [](const Arc& arc) { return key_of(0, arc.from); });
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "pliant/core/sort.h"
 
 namespace pliant {
 namespace {
@@ -35,9 +36,8 @@ std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& v
   // Along its longer side the stroke is searched by bisection.
   const Eigen::Vector2d extent = pixels.rowwise().maxCoeff() - pixels.rowwise().minCoeff();
   const int axis = extent.y() > extent.x() ? 1 : 0;
-  std::vector<Index> order(pixels.cols());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return pixels(axis, a) < pixels(axis, b); });
+  const std::vector<Index> order =
+      order_by(static_cast<Index>(pixels.cols()), [&](Index i) { return key_of(pixels(axis, i)); });
 
   const bool perspective = camera.pixel_size(2.0) != camera.pixel_size(1.0);
   const Eigen::Vector2d low = pixels.rowwise().minCoeff(), high = pixels.rowwise().maxCoeff();
@@ -66,7 +66,7 @@ std::vector<std::vector<Hit>> hits_through(const Camera& camera, const Points& v
     }
   }
   for (std::vector<Hit>& along : hits) {
-    std::stable_sort(along.begin(), along.end(), [](const Hit& x, const Hit& y) { return x.depth < y.depth; });
+    along = sorted_by(along, [](const Hit& hit) { return key_of(hit.depth); });
     const auto same = [](const Hit& x, const Hit& y) {
       return y.depth - x.depth <= kOneDepth * std::max(std::abs(x.depth), std::abs(y.depth));
     };

@@ -1,8 +1,9 @@
 #include "pliant/sketch/laid_stroke.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "pliant/core/message.h"
 
 namespace pliant {
 namespace {
@@ -14,9 +15,8 @@ Status check_distance(const Points& view) {
   const double size = (view.rowwise().maxCoeff() - view.rowwise().minCoeff()).norm();
   const double far = view.cwiseAbs().maxCoeff();
   if (far <= kFarthest * size) return {};
-  char text[120];
-  std::snprintf(text, sizeof text, "camera.eye is %.3g away from the shape; expected at most 1e7 times its size", far);
-  return {ErrorCode::invalid_option, text};
+  return {ErrorCode::invalid_option,
+          message({"camera.eye is ", far, " away from the shape; expected at most 1e7 times its size"})};
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
 #include "pliant/sketch/tether.h"
 
 namespace pliant {
@@ -208,12 +208,10 @@ Status Limb::find_joints() {
   for (Index i = 0; i < nodes; ++i) {
     const std::vector<Hit>& hits = stroke_.hits[i];
     if (hits.size() < 2) {
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "reference meets the shape %s at pixel (%.1f, %.1f); twist and scale need a "
-                    "front and a back hit at every pixel of it",
-                    hits.empty() ? "nowhere" : "only once", stroke_.pixels(0, i), stroke_.pixels(1, i));
-      return {ErrorCode::invalid_option, text};
+      return {ErrorCode::invalid_option,
+              message({"reference meets the shape ", hits.empty() ? "nowhere" : "only once", " at pixel (",
+                       stroke_.pixels(0, i), ", ", stroke_.pixels(1, i),
+                       "); twist and scale need a front and a back hit at every pixel of it"})};
     }
     depths.push_back(0.5 * (hits[0].depth + hits[1].depth));
   }

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 #include <unordered_map>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
 #include "pliant/sketch/sketch_impl.h"
 
 namespace pliant {
@@ -239,20 +239,20 @@ class Refiner {
 Status Sketch::refine(std::span<const std::uint32_t> triangles, Index max_added) {
   if (triangles.size() % 3 != 0) {
     return {ErrorCode::invalid_shape,
-            "triangles has length " + std::to_string(triangles.size()) + "; expected a multiple of 3"};
+            message({"triangles has length ", triangles.size(), "; expected a multiple of 3"})};
   }
   const Index vertices = impl_->shape->input_size();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i] >= static_cast<std::uint32_t>(vertices)) {
-      return {ErrorCode::invalid_shape, "triangles[" + std::to_string(i) + "] is " + std::to_string(triangles[i]) +
-                                            "; expected a vertex id below " + std::to_string(vertices)};
+      return {ErrorCode::invalid_shape,
+              message({"triangles[", i, "] is ", triangles[i], "; expected a vertex id below ", vertices})};
     }
   }
   unrefine();
   if (!Refiner(*impl_, triangles, max_added).run()) {
     unrefine();
-    return {ErrorCode::too_large, "refining would add more than " + std::to_string(max_added) +
-                                      " vertices; expected a pose that stretches less"};
+    return {ErrorCode::too_large,
+            message({"refining would add more than ", max_added, " vertices; expected a pose that stretches less"})};
   }
   return {};
 }

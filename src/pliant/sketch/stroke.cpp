@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 
 #include <Eigen/LU>
+
+#include "pliant/core/message.h"
 
 namespace pliant {
 namespace {
@@ -45,23 +45,20 @@ Polyline averaged(const Polyline& line, double spacing) {
 }  // namespace
 
 Status check_stroke(const Stroke& stroke, const char* argument) {
-  const std::string name(argument);
   if (stroke.cols() < 2) {
-    return {ErrorCode::invalid_option,
-            name + " has " + std::to_string(stroke.cols()) + " samples; expected at least 2"};
+    return {ErrorCode::invalid_option, message({argument, " has ", stroke.cols(), " samples; expected at least 2"})};
   }
   for (Index i = 0; i < stroke.cols(); ++i) {
     // Written so that NaN fails too.
     if (!(stroke.col(i).cwiseAbs().maxCoeff() <= kMaxPixel) || stroke.col(i).hasNaN()) {
       return {ErrorCode::invalid_option,
-              name + "[" + std::to_string(i) + "] is not a pixel; expected two numbers up to 1e6"};
+              message({argument, "[", i, "] is not a pixel; expected two numbers up to 1e6"})};
     }
   }
   const double extent = (stroke.rowwise().maxCoeff() - stroke.rowwise().minCoeff()).eval().norm();
   if (extent < kMinStrokeSegment) {
-    char text[120];
-    std::snprintf(text, sizeof text, " spans %.3g pixels; expected at least %g", extent, kMinStrokeSegment);
-    return {ErrorCode::invalid_option, name + text};
+    return {ErrorCode::invalid_option,
+            message({argument, " spans ", extent, " pixels; expected at least ", kMinStrokeSegment})};
   }
   return {};
 }
