@@ -1,4 +1,4 @@
-// The only outer loop: criteria, progress and cancellation, for scripts, pages and benches alike.
+// The outer loop of native code: criteria, progress and cancellation. (In JavaScript: bindings/js/edit.)
 #pragma once
 
 #include "pliant/solve/deformer.h"
