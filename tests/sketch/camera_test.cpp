@@ -57,7 +57,7 @@ TEST_CASE("bad cameras are named") {
   CHECK(message([](auto& o) { o.width = 0; }) == "camera.width is 0; expected pixels from 1 to 1000000");
   CHECK(message([](auto& o) { o.eye = o.target; }).find("camera.target equals") == 0);
   CHECK(message([](auto& o) { o.up = {0, 1, 0}; }).find("camera.up is zero or along") == 0);
-  CHECK(message([](auto& o) { o.eye.x() = std::nan(""); }).find("camera.eye is nan") == 0);
+  CHECK(message([](auto& o) { o.eye.x() = std::nan(""); }).find("camera.eye is NaN") == 0);
   CHECK(message([](auto& o) { o.orthographic_height = -1; }).find("orthographicHeight") != std::string::npos);
   CHECK(message([](auto& o) {
           o.orthographic_height.reset();
