@@ -4,7 +4,7 @@ import { fields, Place } from "./boundary/check.js";
 import type { Core } from "./boundary/core.js";
 import { readCallback, readSignal } from "./boundary/task.js";
 import { Deformer } from "./deform/deformer.js";
-import type { DeformerOptions, MethodName } from "./methods/index.js";
+import { type DeformerOptions, methodInfos, type MethodName } from "./methods/index.js";
 import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
 import { Edit } from "./edit/living.js";
 import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
@@ -19,6 +19,9 @@ export class Pliant {
   constructor(core: Core) {
     this.#core = core;
   }
+
+  /** The methods and their options, in the order of menus: what menus, sliders and documentation are made from. */
+  readonly methods = methodInfos;
 
   /** Checks a shape and takes it in. Errors: invalid-shape, too-large. */
   shape(input: ShapeInput): Shape {

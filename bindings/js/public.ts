@@ -6,7 +6,7 @@ export { type Counters, Deformer, type Solution, type SolveOptions, type Step, t
 export { type ErrorCode, PliantError } from "./boundary/errors.js";
 export { Handle } from "./deform/handle.js";
 export type { Init } from "./init.js";
-export type { ArapOptions, DeformerOptions, EdgeMaterialOptions, EmbeddedGraphOptions, LiveOptions, MaterialField, MethodName } from "./methods/index.js";
+export type { DeformerOptions, LiveOptions, MaterialField, MethodInfo, MethodName, OptionInfo } from "./methods/index.js";
 export { Pliant } from "./pliant.js";
 export type { MeasureOptions, Quality } from "./shape/quality.js";
 export { Edit } from "./edit/living.js";

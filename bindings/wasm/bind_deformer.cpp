@@ -1,6 +1,5 @@
-// Deformers: RawDeformer of bindings/js/boundary/raw.ts. One class for every method; only build* differ.
+// Deformers: RawDeformer of bindings/js/boundary/raw.ts. One class for every method.
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -9,25 +8,13 @@
 
 #include "bound_deformation.h"
 #include "bound_shape.h"
-#include "pliant/deformers/arap/deformer.h"
-#include "pliant/deformers/edge_material/deformer.h"
-#include "pliant/deformers/embedded_graph/deformer.h"
+#include "pliant/deformers/registry.h"
+#include "values.h"
 
 namespace pliant::bindings {
 namespace {
 
 using emscripten::val;
-
-/// RawEmbeddedGraphOptions. Names of choices are checked in bindings/js.
-struct EmbeddedGraphValues {
-  Index node_count;
-  std::string sampling;
-  int neighbours;
-  double rotation_weight, regularization_weight, constraint_weight;
-  std::string solver;
-  bool exact_handles;
-  double seed;
-};
 
 struct StepValue {
   StatusValue status;
@@ -51,122 +38,24 @@ Points to_points(const std::vector<double>& coordinates) {
   return Eigen::Map<const Points>(coordinates.data(), 3, coordinates.size() / 3);
 }
 
-NodeSampling sampling_of(const std::string& name) {
-  if (name == "nodes") return NodeSampling::nodes;
-  return name == "simplify" ? NodeSampling::simplify : NodeSampling::surface;
-}
-
-/// |a|, a..., |b|, b... for each pair.
-std::vector<Cut> to_cuts(const std::vector<std::int32_t>& packed) {
-  std::vector<Cut> cuts;
-  auto next = packed.begin();
-  const auto take = [&next] {
-    const auto first = next + 1;
-    next = first + *next;
-    return std::vector<Index>(first, next);
-  };
-  while (next != packed.end()) {
-    Cut& cut = cuts.emplace_back();
-    cut.a = take();
-    cut.b = take();
-  }
-  return cuts;
-}
-
-EmbeddedGraphOptions to_options(const EmbeddedGraphValues& values, const Scratch& scratch) {
-  EmbeddedGraphOptions options;
-  options.node_count = values.node_count;
-  options.sampling = sampling_of(values.sampling);
-  if (options.sampling == NodeSampling::nodes) options.nodes = to_points(scratch.doubles());
-  options.neighbours = values.neighbours;
-  options.rotation_weight = values.rotation_weight;
-  options.regularization_weight = values.regularization_weight;
-  options.constraint_weight = values.constraint_weight;
-  options.solver = values.solver == "gauss-newton" ? EmbeddedGraphSolver::gauss_newton : EmbeddedGraphSolver::automatic;
-  options.exact_handles = values.exact_handles;
-  options.cuts = to_cuts(scratch.integers());
-  options.seed = static_cast<std::uint64_t>(values.seed);
-  return options;
-}
-
-/// constraint_weight 0: exact handles.
-ArapOptions to_options(bool rims, double constraint_weight, double smoothness) {
-  ArapOptions options;
-  options.energy = rims ? ArapEnergy::spokes_and_rims : ArapEnergy::spokes;
-  if (constraint_weight > 0.0) options.constraint_weight = constraint_weight;
-  options.smoothness = smoothness;
-  return options;
-}
-
-/// integers: points of each stroke, or source vertices; coordinates: of all strokes.
-DirectionField to_field(const std::string& kind, const std::vector<std::int32_t>& integers,
-                        std::span<const double> coordinates) {
-  using Kind = DirectionField::Kind;
-  DirectionField field;
-  if (kind == "axis") field.kind = Kind::axis;
-  if (kind == "max") field.kind = Kind::curvature_max;
-  if (kind == "min") field.kind = Kind::curvature_min;
-  if (kind == "geodesic") {
-    field.kind = Kind::geodesic;
-    field.sources = integers;
-  }
-  if (kind != "strokes") return field;
-  field.kind = Kind::strokes;
-  for (std::size_t from = 0; const std::int32_t count : integers) {
-    field.strokes.emplace_back(Eigen::Map<const Points>(&coordinates[from], 3, count));
-    from += 3 * count;
-  }
-  return field;
-}
-
-/// stretch, lambda (below 0: from stretch), bend, pStretch, pBend, gravity xyz, axis xyz, strokes.
-EdgeMaterialOptions to_options(const std::string& field, const Scratch& scratch) {
-  const std::vector<double>& v = scratch.doubles();
-  EdgeMaterialOptions options;
-  options.stretch = v[0];
-  if (v[1] >= 0.0) options.lambda = v[1];
-  options.bend = v[2];
-  options.p_stretch = v[3];
-  options.p_bend = v[4];
-  options.gravity = {v[5], v[6], v[7]};
-  options.field = to_field(field, scratch.integers(), std::span(v).subspan(11));
-  options.field.axis = {v[8], v[9], v[10]};
-  return options;
-}
-
-/// scale, center xyz, axis xyz, angle, about xyz, translation xyz.
-Motion to_motion(const std::vector<double>& v) {
-  Motion motion;
-  motion.scale = v[0];
-  motion.center = {v[1], v[2], v[3]};
-  motion.axis = {v[4], v[5], v[6]};
-  motion.angle = v[7];
-  motion.about = {v[8], v[9], v[10]};
-  motion.translation = {v[11], v[12], v[13]};
-  return motion;
-}
-
-/// Empty until a build* succeeds; the other calls need a deformer.
+/// Empty until `build` succeeds; the other calls need a deformer.
 class BoundDeformer final : public BoundDeformation {
  public:
-  StatusValue build_embedded_graph(const BoundShape& shape, const EmbeddedGraphValues& values, const Scratch& scratch) {
-    return take(EmbeddedGraph::create(shape.get(), to_options(values, scratch)));
+  StatusValue build(const BoundShape& shape, const std::string& method, const std::string& names,
+                    const Scratch& scratch) {
+    auto built = build_deformer(method, shape.get(), named_values(names, scratch));
+    if (built.ok()) deformer_ = std::move(*built);
+    return to_value(built.status());
   }
-  StatusValue build_arap(const BoundShape& shape, bool rims, double constraint_weight, double smoothness) {
-    return take(Arap::create(shape.get(), to_options(rims, constraint_weight, smoothness)));
+  StatusValue set_options(const std::string& names, const Scratch& scratch) {
+    return to_value(deformer_->set_options(named_values(names, scratch)));
   }
-  StatusValue set_arap(bool rims, double constraint_weight, double smoothness) {
-    return to_value(as<Arap>().set_options(to_options(rims, constraint_weight, smoothness)));
-  }
-  StatusValue build_edge_material(const BoundShape& shape, const std::string& field, const Scratch& scratch) {
-    return take(EdgeMaterial::create(shape.get(), to_options(field, scratch)));
-  }
-  StatusValue set_edge_material(const std::string& field, const Scratch& scratch) {
-    return to_value(as<EdgeMaterial>().set_options(to_options(field, scratch)));
-  }
-  val field() {
-    field_ = as<EdgeMaterial>().field();
-    return view_of(field_);
+  std::string options(Scratch& scratch) const { return stage(deformer_->options_by_name(), scratch); }
+  PointsValue field() {
+    Result<Points> field = deformer_->field();
+    if (!field.ok()) return {to_value(field.status())};
+    field_ = std::move(*field);
+    return {to_value(Status()), view_of(field_)};
   }
 
   StatusValue set_fixed(const Scratch& scratch) { return to_value(deformer_->set_fixed(scratch.integers())); }
@@ -175,8 +64,8 @@ class BoundDeformer final : public BoundDeformation {
     return {to_value(id.status()), id.ok() ? *id : 0};
   }
   StatusValue remove_handle(int id) { return to_value(deformer_->remove_handle(id)); }
-  StatusValue move_handle(int id, const Scratch& scratch) {
-    return to_value(deformer_->move_handle(id, to_motion(scratch.doubles())));
+  StatusValue move_handle(int id, const std::string& names, const Scratch& scratch) {
+    return with_fields<Motion>(names, scratch, [&](const Motion& to) { return deformer_->move_handle(id, to); });
   }
   StatusValue set_targets(int id, const Scratch& scratch) {
     return to_value(deformer_->set_targets(id, to_points(scratch.doubles())));
@@ -195,23 +84,13 @@ class BoundDeformer final : public BoundDeformation {
   }
   Counters counters() const { return deformer_->counters(); }
 
-  CountValue refine(Index max_nodes) {
-    const auto added = as<EmbeddedGraph>().refine(max_nodes);
+  CountValue refine() {
+    const auto added = deformer_->refine();
     return {to_value(added.status()), added.ok() ? *added : 0};
   }
 
  private:
   Deformation& deformation() override { return *deformer_; }
-  template <class Method>
-  StatusValue take(Result<std::unique_ptr<Method>> built) {
-    if (built.ok()) deformer_ = std::move(*built);
-    return to_value(built.status());
-  }
-  /// Calls of one method come from bindings/js, which knows what it has built.
-  template <class Method>
-  Method& as() {
-    return static_cast<Method&>(*deformer_);
-  }
 
   std::unique_ptr<Deformer> deformer_;
   Points field_;
@@ -222,16 +101,6 @@ class BoundDeformer final : public BoundDeformation {
 EMSCRIPTEN_BINDINGS(pliant_deformer) {
   using emscripten::value_object;
 
-  value_object<EmbeddedGraphValues>("RawEmbeddedGraphOptions")
-      .field("nodeCount", &EmbeddedGraphValues::node_count)
-      .field("sampling", &EmbeddedGraphValues::sampling)
-      .field("neighbours", &EmbeddedGraphValues::neighbours)
-      .field("rotationWeight", &EmbeddedGraphValues::rotation_weight)
-      .field("regularizationWeight", &EmbeddedGraphValues::regularization_weight)
-      .field("constraintWeight", &EmbeddedGraphValues::constraint_weight)
-      .field("solver", &EmbeddedGraphValues::solver)
-      .field("exactHandles", &EmbeddedGraphValues::exact_handles)
-      .field("seed", &EmbeddedGraphValues::seed);
   value_object<StepValue>("RawStep")
       .field("status", &StepValue::status)
       .field("iteration", &StepValue::iteration)
@@ -251,11 +120,9 @@ EMSCRIPTEN_BINDINGS(pliant_deformer) {
 
   emscripten::class_<BoundDeformer, emscripten::base<BoundDeformation>>("Deformer")
       .constructor<>()
-      .function("buildEmbeddedGraph", &BoundDeformer::build_embedded_graph)
-      .function("buildArap", &BoundDeformer::build_arap)
-      .function("setArap", &BoundDeformer::set_arap)
-      .function("buildEdgeMaterial", &BoundDeformer::build_edge_material)
-      .function("setEdgeMaterial", &BoundDeformer::set_edge_material)
+      .function("build", &BoundDeformer::build)
+      .function("setOptions", &BoundDeformer::set_options)
+      .function("options", &BoundDeformer::options)
       .function("field", &BoundDeformer::field)
       .function("setFixed", &BoundDeformer::set_fixed)
       .function("addHandle", &BoundDeformer::add_handle)

@@ -1,6 +1,5 @@
 // Editing by strokes: RawSketch of bindings/js/boundary/raw.ts.
 #include <memory>
-#include <span>
 #include <utility>
 
 #include <Eigen/Core>
@@ -8,128 +7,50 @@
 
 #include "bound_deformation.h"
 #include "bound_shape.h"
+#include "pliant/sketch/drawing.h"
 #include "pliant/sketch/limb_axis.h"
-#include "pliant/sketch/sketch.h"
+#include "values.h"
 
 namespace pliant::bindings {
 namespace {
 
 using emscripten::val;
 
-/// Takes what JavaScript packed into a scratch, front to back.
-class Unpacker {
- public:
-  explicit Unpacker(const Scratch& scratch) : doubles_(scratch.doubles()), integers_(scratch.integers()) {}
-
-  double number() { return numbers(1).front(); }
-  Eigen::Vector3d vector() {
-    const std::span<const double> xyz = numbers(3);
-    return {xyz[0], xyz[1], xyz[2]};
-  }
-  /// The number of samples is among the integers.
-  Stroke stroke() {
-    const Index samples = integers(1).front();
-    return Eigen::Map<const Stroke>(numbers(2 * samples).data(), 2, samples);
-  }
-  /// So is the number of points.
-  std::vector<Profile::Point> points() {
-    const Stroke pairs = stroke();
-    std::vector<Profile::Point> points;
-    for (const auto& pair : pairs.colwise()) points.emplace_back(pair.x(), pair.y());
-    return points;
-  }
-  CameraOptions camera() {
-    CameraOptions camera;
-    camera.eye = vector();
-    camera.target = vector();
-    camera.up = vector();
-    const bool orthographic = integers(1).front() != 0;
-    const double extent = number();
-    if (orthographic) {
-      camera.orthographic_height = extent;
-    } else {
-      camera.fov_y = extent;
-    }
-    camera.width = number();
-    camera.height = number();
-    return camera;
-  }
-  Result<SketchPose> pose() {
-    SketchPose pose;
-    pose.heading = number();
-    pose.length = number();
-    const std::span<const double> turns = numbers(integers(1).front());
-    pose.turns.assign(turns.begin(), turns.end());
-    Result<Profile> twist = Profile::create(points(), "pose.twist");
-    if (!twist.ok()) return twist.status();
-    Result<Profile> scale = Profile::create(points(), "pose.scale");
-    if (!scale.ok()) return scale.status();
-    pose.twist = std::move(*twist);
-    pose.scale = std::move(*scale);
-    return pose;
-  }
-  std::span<const std::int32_t> integers(std::size_t count) {
-    next_integer_ += count;
-    return integers_.subspan(next_integer_ - count, count);
-  }
-  std::span<const std::int32_t> rest() { return integers_.subspan(next_integer_); }
-
- private:
-  std::span<const double> numbers(std::size_t count) {
-    next_double_ += count;
-    return doubles_.subspan(next_double_ - count, count);
-  }
-
-  std::span<const double> doubles_;
-  std::span<const std::int32_t> integers_;
-  std::size_t next_double_ = 0, next_integer_ = 0;
-};
+/// Samples of a stroke or points of a profile, two numbers each.
+Polyline to_line(const Scratch& scratch) {
+  const std::vector<double>& numbers = scratch.doubles();
+  return Eigen::Map<const Polyline>(numbers.data(), 2, static_cast<Index>(numbers.size() / 2));
+}
 
 /// Empty until `build` succeeds; the other calls need a sketch. The views it hands out are of its
 /// own buffers, valid until the next call.
 class BoundSketch final : public BoundDeformation {
  public:
-  StatusValue build(const BoundShape& shape, bool smooth, bool mirrored, int hold, const Scratch& scratch) {
-    Unpacker from(scratch);
-    const Result<Camera> camera = Camera::create(from.camera());
-    if (!camera.ok()) return to_value(camera.status());
-    const Stroke reference = from.stroke();
-    SketchOptions options;
-    options.smooth = smooth;
-    options.hold = static_cast<Hold>(hold);
-    if (mirrored) {
-      Plane& plane = options.mirror.emplace();
-      plane.point = from.vector();
-      plane.normal = from.vector();
-    }
-    const int partitions = from.integers(1).front();
-    for (int i = 0; i < partitions; ++i) options.partitions.push_back(from.stroke());
-    const auto labels = from.rest();
-    options.labels.assign(labels.begin(), labels.end());
-    auto built = Sketch::create(shape.get(), *camera, reference, options);
-    if (built.ok()) sketch_ = std::move(*built);
-    return to_value(built.status());
+  StatusValue build(const BoundShape& shape, const std::string& names, const Scratch& scratch) {
+    return with_camera(names, scratch, [&](const Camera& camera, const Drawing& drawn) {
+      auto built = Sketch::create(shape.get(), camera, drawn.reference, drawn.options);
+      if (built.ok()) sketch_ = std::move(*built);
+      return built.status();
+    });
   }
-  /// Keeps the stroke along the limb under a pixel for the next call; needs no sketch.
-  StatusValue find_limb(const BoundShape& shape, const Scratch& scratch) {
-    Unpacker from(scratch);
-    const Result<Camera> camera = Camera::create(from.camera());
-    if (!camera.ok()) return to_value(camera.status());
-    const Result<Stroke> found = stroke_along_limb(*shape.get(), *camera, from.stroke().col(0));
-    if (found.ok()) numbers_.assign(found->data(), found->data() + found->size());
-    return to_value(found.status());
+  /// Keeps the stroke along the limb under a pixel, the reference, for the next call; needs no sketch.
+  StatusValue find_limb(const BoundShape& shape, const std::string& names, const Scratch& scratch) {
+    return with_camera(names, scratch, [&](const Camera& camera, const Drawing& drawn) {
+      Result<Stroke> found = stroke_along_limb(*shape.get(), camera, drawn.reference.col(0));
+      if (found.ok()) found_limb_ = std::move(*found);
+      return found.status();
+    });
   }
-  val found_limb() const { return view_of(numbers_); }
+  val found_limb() const { return view_of(found_limb_); }
   bool held_at_end() const { return sketch_->held_at_end(); }
-  StatusValue redraw(const Scratch& scratch) {
-    Unpacker from(scratch);
-    const Result<Camera> camera = Camera::create(from.camera());
-    if (!camera.ok()) return to_value(camera.status());
-    return to_value(sketch_->redraw(*camera, from.stroke()));
+  StatusValue redraw(const std::string& names, const Scratch& scratch) {
+    return with_camera(names, scratch, [this](const Camera& camera, const Drawing& drawn) {
+      return sketch_->redraw(camera, drawn.reference);
+    });
   }
 
   StatusValue bend(const Scratch& scratch, bool unfinished) {
-    return to_value(sketch_->bend(Unpacker(scratch).stroke(), unfinished));
+    return to_value(sketch_->bend(to_line(scratch), unfinished));
   }
   void unbend() { sketch_->unbend(); }
   StatusValue twist(double radians) { return to_value(sketch_->twist(radians)); }
@@ -151,32 +72,24 @@ class BoundSketch final : public BoundDeformation {
   void set_smooth(bool smooth) { sketch_->set_smooth(smooth); }
   StatusValue set_morph(double t) { return to_value(sketch_->set_morph(t)); }
 
-  /// Packed as `Unpacker::pose` takes it, with the counts in line.
-  val pose() {
-    const SketchPose pose = sketch_->pose();
-    numbers_ = {pose.heading, pose.length, static_cast<double>(pose.turns.size())};
-    numbers_.insert(numbers_.end(), pose.turns.begin(), pose.turns.end());
-    for (const Profile* profile : {&pose.twist, &pose.scale}) {
-      numbers_.push_back(static_cast<double>(profile->points().size()));
-      for (const auto& [s, f] : profile->points()) numbers_.insert(numbers_.end(), {s, f});
+  std::string pose(Scratch& scratch) const { return stage(named_pose(sketch_->pose()), scratch); }
+  /// A pose, or what lies the share t of the way to another one, whose names begin with "toward/".
+  StatusValue set_pose(const std::string& names, const Scratch& scratch, double t) {
+    NamedValues given, other;
+    for (NamedValue& value : named_values(names, scratch)) {
+      const bool toward = value.name.starts_with("toward/");
+      if (toward) value.name.erase(0, value.name.find('/') + 1);
+      (toward ? other : given).push_back(std::move(value));
     }
-    return view_of(numbers_);
-  }
-  /// A pose; two: the share t of the way from the first to the second.
-  StatusValue set_pose(const Scratch& scratch, bool two, double t) {
-    Unpacker from(scratch);
-    const Result<SketchPose> pose = from.pose();
-    if (!pose.ok() || !two) {
-      return to_value(pose.ok() ? sketch_->set_pose(*pose) : pose.status());
-    }
-    const Result<SketchPose> toward = from.pose();
+    const Result<SketchPose> pose = read_pose(given);
+    if (!pose.ok() || other.empty()) return to_value(pose.ok() ? sketch_->set_pose(*pose) : pose.status());
+    const Result<SketchPose> toward = read_pose(other);
     if (!toward.ok()) return to_value(toward.status());
-    if (pose->turns.size() != toward->turns.size()) {
-      return to_value({ErrorCode::invalid_option,
-                       "toward.turns is not as long as pose.turns; "
-                       "expected two poses of this reference"});
+    if (pose->turns.size() == toward->turns.size()) {
+      return to_value(sketch_->set_pose(SketchPose::blend(*pose, *toward, t)));
     }
-    return to_value(sketch_->set_pose(SketchPose::blend(*pose, *toward, t)));
+    return to_value(
+        {ErrorCode::invalid_option, "toward.turns is not as long as pose.turns; expected two poses of this reference"});
   }
 
   StatusValue refine(const Scratch& scratch, Index max_added) {
@@ -201,8 +114,8 @@ class BoundSketch final : public BoundDeformation {
     return view_of(ids_);
   }
   val parameters() {
-    numbers_ = sketch_->parameters();
-    return view_of(numbers_);
+    parameters_ = sketch_->parameters();
+    return view_of(parameters_);
   }
   val reference() { return of_points(sketch_->reference()); }
   val target() { return of_points(sketch_->target()); }
@@ -215,9 +128,16 @@ class BoundSketch final : public BoundDeformation {
 
  private:
   Deformation& deformation() override { return *sketch_; }
+  template <class Use>
+  static StatusValue with_camera(const std::string& names, const Scratch& scratch, const Use& use) {
+    return with_fields<Drawing>(names, scratch, [&use](const Drawing& drawn) {
+      const Result<Camera> camera = Camera::create(drawn.camera);
+      return camera.ok() ? use(*camera, drawn) : camera.status();
+    });
+  }
   template <class Set>
   StatusValue with_profile(const Scratch& scratch, const Set& set) {
-    const Result<Profile> profile = Profile::create(Unpacker(scratch).points(), "profile");
+    const Result<Profile> profile = profile_through(to_line(scratch), "profile");
     return to_value(profile.ok() ? set(*profile) : profile.status());
   }
   val of_points(Points points) {
@@ -228,7 +148,8 @@ class BoundSketch final : public BoundDeformation {
   std::unique_ptr<Sketch> sketch_;
   SketchSeed seed_;
   std::vector<Index> ids_;
-  std::vector<double> numbers_;
+  std::vector<double> parameters_;
+  Stroke found_limb_;
   Points points_;
 };
 

@@ -23,6 +23,7 @@ class Scratch {
   const std::vector<double>& doubles() const { return doubles_; }
   const std::vector<std::int32_t>& integers() const { return integers_; }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  void set_doubles(std::vector<double> numbers) { doubles_ = std::move(numbers); }
   /// The bytes without a copy; the slot is then empty.
   std::vector<std::uint8_t> take_bytes() { return std::exchange(bytes_, {}); }
 

@@ -83,7 +83,7 @@ test("a stiffer cloth stretches less; the change is one step back", async () => 
 test("the grain is painted with strokes, and goes into the script", async () => {
   await setMethod("edge-material");
   expect(await demo.page.locator("#tool-grain").isVisible()).toBe(false);
-  await demo.page.locator("#option-grain").selectOption("painted");
+  await demo.page.locator("#option-field").selectOption("painted");
   await demo.idle();
   await demo.page.locator("#tool-grain").click();
   const [from, to] = await demo.page.evaluate(() => [[-0.1, 0.9, 0.3], [0.1, 0.5, 0.4]].map((p) => window.pliantDemo.project(p as [number, number, number])));

@@ -3,7 +3,8 @@
 // WASM memory that know when they are gone.
 
 import { PliantError, type ErrorCode } from "./errors.js";
-import type { RawModule, RawObject, RawScratch, RawStatus } from "./raw.js";
+import { packValues, unpackValues } from "./lists.js";
+import type { RawModule, RawNames, RawObject, RawScratch, RawStatus, RawValues } from "./raw.js";
 
 /** Objects that were dropped without dispose(). */
 const dropped = new FinalizationRegistry<{ core: Core; raw: RawObject }>(({ core, raw }) => core.free(raw));
@@ -33,6 +34,18 @@ export class Core {
       fill(scratch, doubles, integers);
       return use(scratch);
     });
+  }
+
+  /** Values by name: the names for a call, and the scratch with their numbers. */
+  stageValues(values: RawValues): [names: RawNames, scratch: RawScratch] {
+    const { names, numbers } = packValues(values);
+    return [names, this.stage(numbers)];
+  }
+
+  /** Values that a call has staged. */
+  stagedValues(stage: (scratch: RawScratch) => RawNames): RawValues {
+    const names = stage(this.#scratch);
+    return unpackValues(names, (length) => this.#scratch.doubles(length));
   }
 
   /** Makes an object for one use, and frees it. */

@@ -11,6 +11,15 @@ export interface RawStatus {
   message: string;
 }
 
+/** null: no numbers. */
+export type RawValue = string | number | boolean | null | ArrayLike<number>;
+
+/** Options and other arguments by name; what comes back are words and lists of numbers. `Core` stages them. */
+export type RawValues = Readonly<Record<string, RawValue>>;
+
+/** The names of staged values: a line for each, "name=word", or "name count" for so many doubles of the scratch. */
+export type RawNames = string;
+
 export interface RawObject {
   delete(): void;
 }
@@ -59,18 +68,6 @@ export interface RawCounters {
   analyses: number;
 }
 
-export interface RawEmbeddedGraphOptions {
-  nodeCount: number;
-  sampling: string; // "surface" | "simplify" | "nodes" (then scratch.doubles holds 3 m coordinates)
-  neighbours: number; // 0: the default, min(4, nodes)
-  rotationWeight: number;
-  regularizationWeight: number;
-  constraintWeight: number;
-  solver: string; // "auto" | "gauss-newton"
-  exactHandles: boolean;
-  seed: number;
-}
-
 /** A saved deformation, table by table. columns 0: a scalar. */
 export interface RawState extends RawObject {
   size(): number;
@@ -95,65 +92,54 @@ export interface RawDeformation extends RawObject {
 }
 
 export interface RawDeformer extends RawDeformation {
-  /** Cuts: scratch.integers holds, for each pair, |a|, a..., |b|, b... (empty: none). */
-  buildEmbeddedGraph(shape: RawShape, options: RawEmbeddedGraphOptions, scratch: RawScratch): RawStatus;
-  /** constraintWeight 0: exact handles. */
-  buildArap(shape: RawShape, rims: boolean, constraintWeight: number, smoothness: number): RawStatus;
-  /** Of a deformer built so; likewise setEdgeMaterial and field. */
-  setArap(rims: boolean, constraintWeight: number, smoothness: number): RawStatus;
-  /**
-   * field: "" | "strokes" | "axis" | "max" | "min" | "geodesic". doubles: stretch, lambda (below 0: from stretch), bend,
-   * pStretch, pBend, gravity xyz, axis xyz, the points of all strokes; integers: points of each stroke, or source vertices.
-   */
-  buildEdgeMaterial(shape: RawShape, field: string, scratch: RawScratch): RawStatus;
-  setEdgeMaterial(field: string, scratch: RawScratch): RawStatus;
-  field(): Float64Array; // 3 n
+  /** Options that are left out are those of the method's struct in C++. */
+  build(shape: RawShape, method: string, options: RawNames, scratch: RawScratch): RawStatus;
+  /** Those left out stay. */
+  setOptions(options: RawNames, scratch: RawScratch): RawStatus;
+  /** Those in use. */
+  options(scratch: RawScratch): RawNames;
+  /** On success `points` is a view of 3 n doubles. */
+  field(): { status: RawStatus; points: Float64Array };
   /** integers: vertex ids. */
   setFixed(scratch: RawScratch): RawStatus;
   /** integers: vertex ids; the new id is in `id` (0 on error). */
   addHandle(scratch: RawScratch): { status: RawStatus; id: number };
   removeHandle(id: number): RawStatus;
-  /** doubles: scale, center xyz, axis xyz, angle (radians), about xyz, translation xyz (14 numbers). */
-  moveHandle(id: number, scratch: RawScratch): RawStatus;
+  /** scale, center, axis, angle (radians), about, translation. */
+  moveHandle(id: number, motion: RawNames, scratch: RawScratch): RawStatus;
   /** doubles: 3 a vertex of the handle. */
   setTargets(id: number, scratch: RawScratch): RawStatus;
   step(tolerance: number): RawStep;
   energyTotal(): number;
   energyTerms(): RawEnergyTerm[];
   counters(): RawCounters;
-  /** Adds graph nodes where the energy terms are high; `added` 0 where nothing is left to refine. */
-  refine(maxNodes: number): { status: RawStatus; added: number };
+  /** Improves the model once, where the options ask for it; `added` above 0: there is more to solve. */
+  refine(): { status: RawStatus; added: number };
 }
 
-/**
- * Editing by strokes (bind_sketch.cpp). Packed into the scratch, doubles beside integers:
- * CAMERA: eye, target, up, angle or height, width, height beside 1 where that is orthographic, else 0;
- * STROKE and PROFILE: two numbers a sample beside how many;
- * POSE: heading, length, turns, twist, scale beside how many turns and points of each profile.
- */
+/** Editing by strokes (bind_sketch.cpp). Samples of a stroke and points of a profile are two numbers each. */
 export interface RawSketch extends RawDeformation {
-  /** CAMERA, STROKE (reference), if mirrored a point and a normal, then beside how many there are the partitions as STROKEs; labels are the other integers. hold: 0 larger, 1 start, 2 end. */
-  build(shape: RawShape, smooth: boolean, mirrored: boolean, hold: number, scratch: RawScratch): RawStatus;
-  /** CAMERA, a STROKE of one pixel: the limb under it, for the next call. Before `build`, too. */
-  findLimb(shape: RawShape, scratch: RawScratch): RawStatus;
+  /** eye, target, up, fovY or orthographicHeight, width, height; reference; hold, smooth, mirrorPoint and mirrorNormal, partitions (and partitions/sizes), labels. */
+  build(shape: RawShape, drawing: RawNames, scratch: RawScratch): RawStatus;
+  /** The camera, and one pixel as the reference: the limb under it, for the next call. Before `build`, too. */
+  findLimb(shape: RawShape, drawing: RawNames, scratch: RawScratch): RawStatus;
   foundLimb(): Float64Array; // 2 a sample
   heldAtEnd(): boolean;
-  /** CAMERA, STROKE. */
-  redraw(scratch: RawScratch): RawStatus;
-  /** STROKE. */
+  /** The camera and the reference. */
+  redraw(drawing: RawNames, scratch: RawScratch): RawStatus;
+  /** doubles: the target, as those of the profiles below. */
   bend(scratch: RawScratch, unfinished: boolean): RawStatus;
   unbend(): void;
   twist(radians: number): RawStatus;
-  /** PROFILE. */
   setScale(scratch: RawScratch): RawStatus;
   setTurning(scratch: RawScratch): RawStatus;
   setTwistSpeed(scratch: RawScratch): RawStatus;
   setSmooth(smooth: boolean): void;
   setMorph(t: number): RawStatus;
-  /** A POSE with the counts in line, each before what it counts. */
-  pose(): Float64Array;
-  /** POSE; if two, another: then the share t of the way to it. */
-  setPose(scratch: RawScratch, two: boolean, t: number): RawStatus;
+  /** heading, turns, length, twist, scale. */
+  pose(scratch: RawScratch): RawNames;
+  /** A pose, or what lies the share t of the way to another one, whose names begin with "toward/". */
+  setPose(pose: RawNames, scratch: RawScratch, t: number): RawStatus;
   /** integers: the input's triangles. */
   refine(scratch: RawScratch, maxAdded: number): RawStatus;
   unrefine(): void;

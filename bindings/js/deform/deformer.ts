@@ -7,9 +7,9 @@ import type { State } from "../boundary/state.js";
 import { Deformation } from "./deformation.js";
 import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import { Handle } from "./handle.js";
-import { type DeformerOptions, type LiveOptions, type Method, type MethodName, type Options, readLive, readMethod, readOptions } from "../methods/index.js";
+import { type DeformerOptions, drawing, type LiveOptions, type Method, type MethodName, methodsThat, readLive, readMethod, readOptions } from "../methods/index.js";
 import type { RawDeformer } from "../boundary/raw.js";
-import { extentOf, type Shape, shapeFor } from "../shape/shape.js";
+import { extentOf, insideOf, type Shape, shapeFor } from "../shape/shape.js";
 
 /** What one iteration did. */
 export interface Step {
@@ -67,7 +67,6 @@ export let drive: (deformer: Deformer) => {
 export class Deformer<M extends MethodName = MethodName> extends Deformation<State, RawDeformer> {
   readonly method: M;
   readonly #method: Method;
-  #options: Options;
   readonly #handles = new Map<number, Handle>();
   #refined = false;
 
@@ -82,11 +81,13 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
     const method = readMethod(place.at("method"), options.method);
     const read = readOptions(place, options, method, extentOf(shape), ["method"]);
-    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) => method.build(core, unbuilt, shape, read, place));
+    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) => {
+      const packed = method.pack(read, place, shape);
+      return insideOf(shape).owned.call((rawShape) => unbuilt.build(rawShape, method.name, ...core.stageValues(packed)));
+    });
     super(core, shape, raw, "deformer");
     this.#method = method;
     this.method = method.name as M;
-    this.#options = read;
   }
 
   // -- On grab: the next step factorises. -----------------------------------------------------------
@@ -116,19 +117,21 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
 
   // -- Options that are live. -----------------------------------------------------------------------
 
+  /** The options in use: what `pliant.deformer` takes beside the method. */
+  options(): Omit<DeformerOptions<M>, "method"> {
+    const values = this.owned.call((raw) => this.#core.stagedValues((scratch) => raw.options(scratch)));
+    return this.#method.unpack(values, this.shape.dimension) as Omit<DeformerOptions<M>, "method">;
+  }
+
   /**
-   * Changes options of a living deformer; handles, targets and the deformation stay. Those of `edge-material` and `arap`:
-   * what the next step pays for is said at each. Errors: invalid-option; then nothing has changed.
+   * Changes options of a living deformer, those that `pliant.methods` calls live; handles, targets, the deformation and
+   * options left out stay. Errors: invalid-option; then nothing has changed.
    */
   setOptions(options: LiveOptions[M]): void {
     const place = new Place("invalid-option", "options");
     const given = readLive(place, options, this.#method, extentOf(this.shape));
-    const { merge, update } = this.#method;
-    if (!update) return;
-    const merged = merge?.(this.#options, given) ?? { ...this.#options, ...given };
-    this.#method.check(place, merged);
-    this.owned.accept((raw) => update(this.#core, raw, this.shape, merged, place));
-    this.#options = merged;
+    const packed = this.#method.pack(given, place, this.shape);
+    this.owned.accept((raw) => raw.setOptions(...this.#core.stageValues(packed)));
   }
 
   // -- Solving. -------------------------------------------------------------------------------------
@@ -168,12 +171,10 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
 
   /** Whether refinement has added something to solve. */
   #refine(): boolean {
-    if (this.#refined) return false;
-    const result = this.owned.call((raw) => this.#method.refine?.(raw, this.shape, this.#options));
-    if (!result) return false;
-    accept(result.status);
-    this.#refined = true;
-    return result.added > 0;
+    const { status, added } = this.owned.call((raw) => raw.refine());
+    accept(status);
+    this.#refined ||= added > 0;
+    return added > 0;
   }
 
   /** At the current deformation and targets: the weighted sum, each term unweighted, and the weights. */
@@ -191,11 +192,14 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     return this.owned.call((raw) => raw.counters());
   }
 
-  /** The directions in use by `edge-material`, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or zero. Errors: not-solvable. */
+  /** Directions that the material has, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or zero. Errors: not-solvable. */
   field(): Float32Array {
-    const { field } = this.#method;
-    if (!field) throw new PliantError("not-solvable", `${this.method} has no directions; expected edge-material`);
-    return this.owned.call((raw) => Float32Array.from(field(raw)));
+    if (!this.#method.draws.includes("field")) {
+      throw new PliantError("not-solvable", `${this.method} has no directions; expected ${methodsThat(drawing("field"))}`);
+    }
+    const { status, points } = this.owned.call((raw) => raw.field());
+    accept(status);
+    return Float32Array.from(points);
   }
 
   get #core(): Core {

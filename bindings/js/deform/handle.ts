@@ -3,7 +3,7 @@
 import { coordinates, Place, toSpace } from "../boundary/check.js";
 import type { Owned } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
-import type { RawDeformer, RawScratch, RawStatus } from "../boundary/raw.js";
+import type { RawDeformer, RawStatus } from "../boundary/raw.js";
 import { insideOf, type Shape } from "../shape/shape.js";
 import { applyMatrix, centroidOf, packMotion, readTransform, type Transform } from "../shape/transform.js";
 
@@ -40,7 +40,7 @@ export class Handle {
       return;
     }
     const packed = packMotion(motion, centroidOf(rest, dimension));
-    this.#call(packed, (raw, scratch) => raw.moveHandle(this.#id, scratch));
+    this.#call((raw) => raw.moveHandle(this.#id, ...this.#deformer.core.stageValues(packed)));
   }
 
   /** Moves each vertex to its own target: `shape.dimension` numbers a vertex, in the order of the vertices. Errors: invalid-handle. */
@@ -57,19 +57,19 @@ export class Handle {
 
   /** Takes the handle off the shape. */
   remove(): void {
-    this.#call([], (raw) => raw.removeHandle(this.#id));
+    this.#call((raw) => raw.removeHandle(this.#id));
     this.#removed = true;
     this.#forget();
   }
 
   #setTargets(targets: ArrayLike<number>): void {
     const space = toSpace(targets, this.#shape.dimension);
-    this.#call(space, (raw, scratch) => raw.setTargets(this.#id, scratch));
+    this.#call((raw) => raw.setTargets(this.#id, this.#deformer.core.stage(space)));
   }
 
-  #call(doubles: ArrayLike<number>, work: (raw: RawDeformer, scratch: RawScratch) => RawStatus): void {
+  #call(work: (raw: RawDeformer) => RawStatus): void {
     if (this.#removed) throw new PliantError("disposed", "this handle is removed; expected a live one");
-    this.#deformer.accept((raw) => work(raw, this.#deformer.core.stage(doubles)));
+    this.#deformer.accept(work);
   }
 
   /** Rest positions of its vertices. */

@@ -2,10 +2,10 @@
 
 import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place, vector } from "../boundary/check.js";
 import { build, type Core } from "../boundary/core.js";
-import type { RawScratch, RawSketch, RawStatus } from "../boundary/raw.js";
+import type { RawScratch, RawSketch, RawStatus, RawValues } from "../boundary/raw.js";
 import { insideOf, type Shape, shapeFor } from "../shape/shape.js";
 import { Deformation } from "./deformation.js";
-import { type Camera, type Hold, type Mirror, Packed, type Profile, readDrawing, type SketchPose, type Stroke, unpackPose } from "./sketch_input.js";
+import { type Camera, type Hold, type Mirror, poseOf, type Profile, readCamera, readDrawing, readPairs, readPose, type SketchPose, type Stroke } from "./sketch_input.js";
 
 export type { Camera, Hold, Mirror, Profile, SketchPose, Stroke };
 
@@ -77,8 +77,6 @@ export interface SketchState {
 
 export const defaultMaxAdded = 1_000_000;
 
-type PackedCall = (raw: RawSketch, scratch: RawScratch) => RawStatus;
-
 /**
  * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
  *
@@ -91,16 +89,16 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
   constructor(core: Core, shape: Shape, options: SketchOptions) {
     shapeFor(core, shape);
     if (shape.dimension !== 3) new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
-    const { packed, smooth, mirrored, hold } = readSketch(options);
-    const raw = build(core, () => new core.raw.Sketch(), (unbuilt) => insideOf(shape).owned.call((rawShape) =>
-      unbuilt.build(rawShape, smooth, mirrored, hold, core.stage(packed.doubles, packed.integers))));
+    const drawing = readSketch(options);
+    const raw = build(core, () => new core.raw.Sketch(), (unbuilt) =>
+      insideOf(shape).owned.call((rawShape) => unbuilt.build(rawShape, ...core.stageValues(drawing))));
     super(core, shape, raw, "sketch");
   }
 
   /** Another reference stroke over the same region, maybe seen from elsewhere; back to rest. Errors: invalid-option; nothing changes then. */
   redraw(camera: Camera, reference: Stroke): void {
-    const packed = new Packed().camera(option("camera"), camera).pairs(option("reference"), reference);
-    this.#accept(packed, (raw, scratch) => raw.redraw(scratch));
+    const drawing = { ...readCamera(option("camera"), camera), reference: readPairs(option("reference"), reference) };
+    this.owned.accept((raw) => raw.redraw(...this.owned.core.stageValues(drawing)));
   }
 
   /** The end of the reference that is held. */
@@ -119,7 +117,8 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     const place = option("options");
     const { unfinished = false } = fields(place, options, ["unfinished"]);
     const open = flag(place.at("unfinished"), unfinished);
-    this.#accept(new Packed().pairs(option("target"), target), (raw, scratch) => raw.bend(scratch, open));
+    const samples = readPairs(option("target"), target);
+    this.owned.accept((raw) => raw.bend(this.owned.core.stage(samples), open));
   }
 
   /** Takes the bend back; twist and scale stay. */
@@ -162,16 +161,15 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
 
   /** The whole pose, to be kept and set again. */
   pose(): SketchPose {
-    return this.owned.call((raw) => unpackPose(raw.pose()));
+    return this.owned.call((raw) => poseOf(this.owned.core.stagedValues((scratch) => raw.pose(scratch))));
   }
 
   /** Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to the identity. Errors: invalid-option. */
   setPose(pose: SketchPose, toward?: SketchPose, t = 0): void {
-    const packed = new Packed().pose(option("pose"), pose);
-    const two = toward !== undefined;
-    if (two) packed.pose(option("toward"), toward);
+    const from = readPose(option("pose"), pose);
+    const to = toward === undefined ? {} : readPose(option("toward"), toward, "toward/");
     const share = fraction(option("t"), t);
-    this.#accept(packed, (raw, scratch) => raw.setPose(scratch, two, share));
+    this.owned.accept((raw) => raw.setPose(...this.owned.core.stageValues({ ...from, ...to }), share));
   }
 
   // -- Refinement. ----------------------------------------------------------------------------------
@@ -251,12 +249,9 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     return ["handles", "sides", "joints", "twists", "scales", "rest", "parents"];
   }
 
-  #accept({ doubles, integers }: Packed, work: PackedCall): void {
-    this.owned.accept((raw) => work(raw, this.owned.core.stage(doubles, integers)));
-  }
-
-  #profile(profile: Profile, work: PackedCall): void {
-    this.#accept(new Packed().pairs(option("profile"), profile), work);
+  #profile(profile: Profile, set: (raw: RawSketch, scratch: RawScratch) => RawStatus): void {
+    const samples = readPairs(option("profile"), profile);
+    this.owned.accept((raw) => set(raw, this.owned.core.stage(samples)));
   }
 }
 
@@ -271,9 +266,9 @@ function option(name: string): Place {
 export function limbStroke(core: Core, shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> }): [x: number, y: number][] {
   shapeFor(core, shape);
   const { camera, pixel } = fields(option("options"), options, ["camera", "pixel"]);
-  const packed = new Packed().camera(option("camera"), camera).pairs(option("pixel"), [vector(option("pixel"), pixel, 2)]);
+  const drawing = { ...readCamera(option("camera"), camera), reference: vector(option("pixel"), pixel, 2) };
   const raw = build(core, () => new core.raw.Sketch(), (finder) => insideOf(shape).owned.call((rawShape) =>
-    finder.findLimb(rawShape, core.stage(packed.doubles, packed.integers))));
+    finder.findLimb(rawShape, ...core.stageValues(drawing))));
   try {
     const numbers = raw.foundLimb();
     return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
@@ -284,12 +279,10 @@ export function limbStroke(core: Core, shape: Shape, options: { camera: Camera; 
 
 const known = ["camera", "reference", "hold", "partitions", "smooth", "mirror", "labels"];
 
-function readSketch(value: unknown) {
+function readSketch(value: unknown): RawValues {
   const options = fields(option("options"), value, known, "option of a sketch");
   const drawing = readDrawing(option(""), options);
-  if (options.labels !== undefined) {
-    const labels = Array.from(filled(option("labels"), options.labels, "a label a vertex"));
-    labels.forEach((label, i) => drawing.packed.integers.push(integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")));
-  }
-  return drawing;
+  if (options.labels === undefined) return drawing;
+  const given = filled(option("labels"), options.labels, "a label a vertex");
+  return { ...drawing, labels: Array.from(given, (label, i) => integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")) };
 }

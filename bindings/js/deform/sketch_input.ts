@@ -1,6 +1,8 @@
-// What a sketch is made from, as callers write it, and how it is packed for the WASM side.
+// What a sketch is made from, as callers write it, and as the WASM side takes it.
 
 import { choice, type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
+import { packLists } from "../boundary/lists.js";
+import type { RawValues } from "../boundary/raw.js";
 
 /** CAMERA of docs/edit-script.md. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
 export interface Camera {
@@ -22,7 +24,7 @@ export type Stroke = readonly ArrayLike<number>[] | FloatArray;
 /** A function of the normalised arc length s: points [s, F(s)], s from 0 to 1 ascending; linear between, constant beyond. */
 export type Profile = readonly ArrayLike<number>[] | FloatArray;
 
-/** Which end of a reference stroke is held; in the order of the WASM side's `Hold`. */
+/** Which end of a reference stroke is held. */
 export const holds = ["larger", "start", "end"] as const;
 export type Hold = (typeof holds)[number];
 
@@ -46,79 +48,64 @@ export interface SketchPose {
   scale: [s: number, factor: number][];
 }
 
-/** Numbers and counts on their way into the scratch. */
-export class Packed {
-  readonly doubles: number[] = [];
-  readonly integers: number[] = [];
-
-  /** A CAMERA. What else has to hold is checked behind. */
-  camera(place: Place, value: unknown): this {
-    const camera = fields(place, value, ["eye", "target", "up", "fovY", "orthographicHeight", "width", "height"]);
-    for (const key of ["eye", "target", "up"] as const) this.doubles.push(...vector(place.at(key), camera[key], 3));
-    const { fovY, orthographicHeight } = camera;
-    const orthographic = orthographicHeight !== undefined;
-    if (orthographic && fovY !== undefined) place.reject("has fovY and orthographicHeight; expected one or the other");
-    if (!orthographic && fovY === undefined) place.reject("has neither fovY nor orthographicHeight; expected one of them");
-    this.integers.push(Number(orthographic));
-    this.doubles.push(orthographic ? finite(place.at("orthographicHeight"), orthographicHeight) : finite(place.at("fovY"), fovY));
-    for (const key of ["width", "height"] as const) this.doubles.push(finite(place.at(key), camera[key]));
-    return this;
-  }
-
-  /** A STROKE or a PROFILE. */
-  pairs(place: Place, value: unknown): this {
-    const numbers = points(place, value, 2);
-    this.integers.push(numbers.length / 2);
-    for (let i = 0; i < numbers.length; ++i) this.doubles.push(numbers[i]);
-    return this;
-  }
-
-  mirror(place: Place, value: unknown): this {
-    const mirror = fields(place, value, ["normal", "offset"]);
-    const normal = direction(place.at("normal"), mirror.normal, 3);
-    const offset = mirror.offset === undefined ? 0 : finite(place.at("offset"), mirror.offset);
-    const square = normal.reduce((sum, x) => sum + x * x, 0);
-    this.doubles.push(...normal.map((x) => (x * offset) / square), ...normal);
-    return this;
-  }
-
-  partitions(place: Place, value: unknown): this {
-    const lines = Array.from(list(place, value, "lines across the shape"));
-    this.integers.push(lines.length);
-    lines.forEach((line, i) => this.pairs(place.item(i), line));
-    return this;
-  }
-
-  pose(place: Place, value: unknown): this {
-    const pose = fields(place, value, ["heading", "turns", "length", "twist", "scale"]);
-    for (const key of ["heading", "length"] as const) this.doubles.push(finite(place.at(key), pose[key]));
-    const turns = list(place.at("turns"), pose.turns);
-    this.integers.push(turns.length);
-    for (let i = 0; i < turns.length; ++i) this.doubles.push(finite(place.at("turns").item(i), turns[i]));
-    return this.pairs(place.at("twist"), pose.twist).pairs(place.at("scale"), pose.scale);
-  }
-}
-
-/** A pose from the numbers of the WASM side, each list after its length. */
-export function unpackPose(numbers: ArrayLike<number>): SketchPose {
-  let at = 0;
-  const take = (count: number) => Array.from({ length: count }, () => numbers[at++]);
-  const [heading, length] = take(2);
-  const [turns, twist, scale] = [1, 2, 2].map((width) => {
-    const [count] = take(1);
-    return Array.from({ length: count }, () => take(width));
-  });
-  return { heading, turns: turns.flat(), length, twist: twist as SketchPose["twist"], scale: scale as SketchPose["scale"] };
-}
-
-/** What a region is chosen by, packed, and the choices that travel beside. */
-export function readDrawing(place: Place, options: Fields): { packed: Packed; smooth: boolean; mirrored: boolean; hold: number } {
-  const packed = new Packed().camera(place.at("camera"), options.camera).pairs(place.at("reference"), options.reference);
-  const mirrored = options.mirror !== undefined;
-  if (mirrored) packed.mirror(place.at("mirror"), options.mirror);
-  packed.partitions(place.at("partitions"), options.partitions ?? []);
+/** A CAMERA as the WASM side takes it. What else has to hold is checked there. */
+export function readCamera(place: Place, value: unknown): RawValues {
+  const { eye, target, up, fovY, orthographicHeight, width, height } =
+    fields(place, value, ["eye", "target", "up", "fovY", "orthographicHeight", "width", "height"]);
+  const orthographic = orthographicHeight !== undefined;
+  if (orthographic && fovY !== undefined) place.reject("has fovY and orthographicHeight; expected one or the other");
+  if (!orthographic && fovY === undefined) place.reject("has neither fovY nor orthographicHeight; expected one of them");
+  const of = (name: string, given: unknown) => vector(place.at(name), given, 3);
   return {
-    packed, mirrored, smooth: options.smooth === undefined || flag(place.at("smooth"), options.smooth),
-    hold: holds.indexOf(choice(place.at("hold"), options.hold ?? "larger", holds)),
+    eye: of("eye", eye), target: of("target", target), up: of("up", up),
+    ...(orthographic ? { orthographicHeight: finite(place.at("orthographicHeight"), orthographicHeight) } : { fovY: finite(place.at("fovY"), fovY) }),
+    width: finite(place.at("width"), width), height: finite(place.at("height"), height),
+  };
+}
+
+/** A stroke or a profile. */
+export function readPairs(place: Place, value: unknown): ArrayLike<number> {
+  return points(place, value, 2);
+}
+
+function readMirror(place: Place, value: unknown): RawValues {
+  const mirror = fields(place, value, ["normal", "offset"]);
+  const mirrorNormal = direction(place.at("normal"), mirror.normal, 3);
+  const offset = mirror.offset === undefined ? 0 : finite(place.at("offset"), mirror.offset);
+  const square = mirrorNormal.reduce((sum, x) => sum + x * x, 0);
+  return { mirrorNormal, mirrorPoint: mirrorNormal.map((x) => (x * offset) / square) };
+}
+
+function readPartitions(place: Place, value: unknown): RawValues {
+  return packLists("partitions", Array.from(list(place, value, "lines across the shape"), (line, i) => readPairs(place.item(i), line)));
+}
+
+/** `prefix`: of the names. */
+export function readPose(place: Place, value: unknown, prefix = ""): RawValues {
+  const { heading, turns, length, twist, scale } = fields(place, value, ["heading", "turns", "length", "twist", "scale"]);
+  const pose = {
+    heading: finite(place.at("heading"), heading),
+    turns: Array.from(list(place.at("turns"), turns), (turn, i) => finite(place.at("turns").item(i), turn)),
+    length: finite(place.at("length"), length),
+    twist: readPairs(place.at("twist"), twist), scale: readPairs(place.at("scale"), scale),
+  };
+  return Object.fromEntries(Object.entries(pose).map(([name, field]) => [`${prefix}${name}`, field]));
+}
+
+/** A pose from the WASM side. */
+export function poseOf(values: RawValues): SketchPose {
+  const numbers = (name: keyof SketchPose) => Array.from(values[name] as ArrayLike<number>);
+  const pairs = (name: keyof SketchPose) => numbers(name).flatMap((s, i, all) => (i % 2 === 0 ? [[s, all[i + 1]] as [number, number]] : []));
+  return { heading: numbers("heading")[0], turns: numbers("turns"), length: numbers("length")[0], twist: pairs("twist"), scale: pairs("scale") };
+}
+
+/** What a region is chosen by. */
+export function readDrawing(place: Place, { camera, reference, hold, mirror, partitions, smooth }: Fields): RawValues {
+  return {
+    ...readCamera(place.at("camera"), camera), reference: readPairs(place.at("reference"), reference),
+    ...(mirror === undefined ? {} : readMirror(place.at("mirror"), mirror)),
+    ...readPartitions(place.at("partitions"), partitions ?? []),
+    ...(hold === undefined ? {} : { hold: choice(place.at("hold"), hold, holds) }),
+    ...(smooth === undefined ? {} : { smooth: flag(place.at("smooth"), smooth) }),
   };
 }

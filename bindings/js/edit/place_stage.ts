@@ -6,6 +6,7 @@ import type { State } from "../boundary/state.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { rows } from "./growth.js";
 import type { PlacePlan } from "./plan.js";
+import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, placed, sameGoal } from "./roles.js";
 import { same } from "./same.js";
@@ -94,7 +95,7 @@ export class PlaceStage extends Stage<PlacePlan> {
 
   carry(): never {
     const what = "place moves vertices, not the space around them";
-    throw new PliantError("not-solvable", `${what}; expected embedded-graph or another method that carries points`);
+    throw new PliantError("not-solvable", `${what}; expected ${methodsThat(({ carries }) => carries)}`);
   }
 
   dispose(): void {

@@ -4,7 +4,7 @@ import { fields, type Fields, finite, flag, fraction, integer, notNegative, type
 import { readMethod } from "../methods/index.js";
 import type { Extent } from "../shape/selection.js";
 import type { Camera, Profile, SketchOptions, Stroke } from "../deform/sketch.js";
-import { Packed, readDrawing } from "../deform/sketch_input.js";
+import { readCamera, readDrawing, readPairs } from "../deform/sketch_input.js";
 import type { DrawnRegion, FinishPlan, PosePlan, SketchPlan } from "./plan.js";
 import { maxCount, readDeformer, readSolve } from "./solve.js";
 
@@ -57,14 +57,14 @@ function readPose(place: Place, step: Fields): PosePlan {
 function readBend(place: Place, value: unknown): PosePlan["bend"] {
   if (value === undefined) return undefined;
   const { target, unfinished = false } = fields(place, value, ["target", "unfinished"]);
-  new Packed().pairs(place.at("target"), target);
+  readPairs(place.at("target"), target);
   return { target: target as Stroke, unfinished: flag(place.at("unfinished"), unfinished) };
 }
 
 function readProfile(place: Place, value: unknown): Profile | undefined {
   if (value === undefined) return undefined;
   const { profile } = fields(place, value, ["profile"]);
-  new Packed().pairs(place.at("profile"), profile);
+  readPairs(place.at("profile"), profile);
   return profile as Profile;
 }
 
@@ -76,7 +76,8 @@ function readRegion(place: Place, { region }: Fields): DrawnRegion {
   if (region === "previous") return region;
   if (typeof region === "string") place.fail(region, '"previous", or camera and reference of another stroke');
   const { camera, reference } = fields(place, region, ["camera", "reference"]);
-  new Packed().camera(place.at("camera"), camera).pairs(place.at("reference"), reference);
+  readCamera(place.at("camera"), camera);
+  readPairs(place.at("reference"), reference);
   return { camera, reference } as { camera: Camera; reference: Stroke };
 }
 

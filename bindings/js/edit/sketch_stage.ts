@@ -8,6 +8,7 @@ import { type Refinement, Sketch } from "../deform/sketch.js";
 import { Finisher } from "./finisher.js";
 import { located } from "./located.js";
 import type { PosePlan, SketchPlan } from "./plan.js";
+import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 import { copied } from "./solving.js";
@@ -178,7 +179,7 @@ export class SketchStage extends Stage<SketchPlan> {
   carry(points: Float64Array): void {
     if (!this.#finisher) {
       const what = "sketch moves a surface, not the space around it";
-      throw new PliantError("not-solvable", `${what}; expected embedded-graph or another method that carries points`);
+      throw new PliantError("not-solvable", `${what}; expected ${methodsThat(({ carries }) => carries)}`);
     }
     this.#finisher.deformer.transformPoints(points, points);
   }

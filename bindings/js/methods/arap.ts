@@ -1,37 +1,32 @@
 // arap: Sorkine, Alexa, As-Rigid-As-Possible Surface Modeling (2007).
 
-import { choice, fraction, orNull, positive } from "../boundary/check.js";
-import { insideOf } from "../shape/shape.js";
-import type { Method, Options } from "./method.js";
+import { fraction, positive } from "../boundary/check.js";
+import { method } from "./method.js";
+import { choice, number, numberOrNull } from "./option.js";
 
-/** Options of `arap`. All but the method may change at any time, by `setOptions`. */
-export interface ArapOptions {
-  method: "arap";
-  /** What a rotation has to fit: the edges of its vertex, or all edges of the triangles around. "spokes". */
-  energy?: "spokes" | "spokes-and-rims";
-  /** Makes handles soft: the weight of the squared distances from their targets. null, and the default: they are exact. */
-  constraintWeight?: number | null;
-  /** Length, as a part of the square root of the area, below which bending is kept away: 0. From 0.05 a single vertex raises no spike. */
-  smoothness?: number;
-}
-
-function values(options: Options): [rims: boolean, constraintWeight: number, smoothness: number] {
-  const { energy, constraintWeight, smoothness } = options as Omit<ArapOptions, "method">;
-  return [energy === "spokes-and-rims", constraintWeight ?? 0, smoothness ?? 0];
-}
-
-const options = {
-  energy: (place, value) => choice(place, value, ["spokes", "spokes-and-rims"]),
-  constraintWeight: orNull(positive),
-  smoothness: fraction,
-} satisfies Method["options"];
-
-export const arap: Method = {
+export const arap = method({
   name: "arap",
-  options,
-  live: Object.keys(options),
+  title: "As rigid as possible",
+  short: "ARAP",
+  paper: "Sorkine, Alexa: As-Rigid-As-Possible Surface Modeling (2007)",
+  help: "Every vertex turns with its neighbours.",
   carries: false,
-  check() {},
-  build: (_, raw, shape, given) => insideOf(shape).owned.call((rawShape) => raw.buildArap(rawShape, ...values(given))),
-  update: (_, raw, __, given) => raw.setArap(...values(given)),
-};
+  curves: false,
+  draws: [],
+  live: true,
+  loads: [],
+  options: {
+    energy: choice(["spokes", "spokes-and-rims"], {
+      title: "Energy", default: "spokes",
+      help: "Which edges one rotation has to fit: those of its vertex, or all of the triangles around it.",
+    }),
+    constraintWeight: numberOrNull(positive, {
+      title: "Softness", min: 0.1, max: 1000, step: 0.1, log: true, advanced: true,
+      help: "Makes handles soft: the weight of the squared distances from their targets. Left out, or null: they are exact.",
+    }),
+    smoothness: number(fraction, {
+      title: "Smoothness", default: 0, start: 0.05, min: 0, max: 0.3, step: 0.01,
+      help: "The part of the size below which bending is kept away: from 0.05 no spike grows under a small handle.",
+    }),
+  },
+});

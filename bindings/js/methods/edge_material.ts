@@ -1,30 +1,14 @@
 // edge-material: material-aware edges, which keep their lengths and the angles between their triangles.
 
-import { choice, direction, fields, filled, fraction, isList, notNegative, orNull, type Place, points, toSpace, vector, vertexIds } from "../boundary/check.js";
-import type { Core } from "../boundary/core.js";
-import type { RawScratch } from "../boundary/raw.js";
+import {
+  choice, direction, fields, filled, fraction, isList, notNegative, type Place, points, toSpace, vertexIds,
+} from "../boundary/check.js";
+import { packLists, rowsOf, unpackLists } from "../boundary/lists.js";
+import type { RawValues } from "../boundary/raw.js";
 import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../shape/selection.js";
 import { insideOf, type Shape } from "../shape/shape.js";
-import type { Method, OptionReader, Options } from "./method.js";
-
-/** Options of `edge-material`. All but the method may change at any time, by `setOptions`. */
-export interface EdgeMaterialOptions {
-  method: "edge-material";
-  /** Stiffness against stretch, the same at every resolution: lambda = stretch (mean edge / diagonal)^2. 1. */
-  stretch?: number;
-  /** The paper's own lambda, instead of `stretch`. */
-  lambda?: number;
-  /** Stiffness against bending, the paper's mu: 1. */
-  bend?: number;
-  /** The part of `stretch` that acts, 0 to 1: 1. Changing it costs nothing. */
-  pStretch?: number;
-  /** The part of `bend` that acts, 0 to 1: 1. Changing it costs nothing. */
-  pBend?: number;
-  /** Where things fall: the force on a vertex is gravity lambda (diagonal) / (vertices). Changing it costs nothing. */
-  gravity?: ArrayLike<number>;
-  /** A direction on the surface along which edges resist, while those across give way. null, and the default: none. */
-  field?: MaterialField | null;
-}
+import { method } from "./method.js";
+import { number, option, vector } from "./option.js";
 
 /** Directions whose sign has no meaning. */
 export type MaterialField =
@@ -36,11 +20,6 @@ export type MaterialField =
   | { curvature: "max" | "min" }
   /** Along the shortest paths from these vertices. */
   | { geodesic: Selection | readonly number[] | Uint32Array };
-
-/** After reading: what is left out is undefined; points are in space. */
-interface Read extends Omit<EdgeMaterialOptions, "method" | "field"> {
-  field?: FieldRead | null;
-}
 
 type FieldRead =
   | { kind: "strokes"; strokes: ArrayLike<number>[] }
@@ -77,56 +56,62 @@ function readField(place: Place, value: unknown, extent: Extent): FieldRead {
   return fieldReaders[kind](place.at(kind), field[kind], extent);
 }
 
-const options: Record<string, OptionReader> = {
-  stretch: notNegative,
-  lambda: notNegative,
-  bend: notNegative,
-  pStretch: fraction,
-  pBend: fraction,
-  gravity: (place, value, { dimension }) => toSpace(vector(place, value, dimension), dimension),
-  field: orNull(readField),
-};
-
-/** The options as the WASM side takes them. */
-function pack(core: Core, shape: Shape, given: Options, place: Place): [field: string, scratch: RawScratch] {
-  const { stretch = 1, lambda = -1, bend = 1, pStretch = 1, pBend = 1, gravity = [0, 0, 0], field } = given as Read;
-  const axis = field?.kind === "axis" ? field.axis : [0, 0, 0];
-  const numbers = [stretch, lambda, bend, pStretch, pBend, ...Array.from(gravity), ...Array.from(axis)];
-  if (field?.kind === "strokes") {
-    const strokes = field.strokes.map((stroke) => Array.from(stroke));
-    return [field.kind, core.stage(numbers.concat(...strokes), strokes.map((stroke) => stroke.length / 3))];
-  }
-  if (field?.kind !== "geodesic") return [field?.kind ?? "", core.stage(numbers)];
+/** `field`, and what it is made from under names of their own. */
+function packField(name: string, field: FieldRead | null, place: Place, shape: Shape): RawValues {
+  if (field?.kind === "strokes") return { [name]: field.kind, ...packLists(`${name}/strokes`, field.strokes) };
+  if (field?.kind === "axis") return { [name]: field.kind, [`${name}/axis`]: field.axis };
+  if (field?.kind !== "geodesic") return { [name]: field?.kind ?? "none" };
   const { sources } = field;
-  const ids = sources instanceof Int32Array ? sources : selectedIds(place.at("field").at("geodesic"), sources, insideOf(shape).rest);
-  return [field.kind, core.stage(numbers, ids)];
+  const ids = sources instanceof Int32Array ? sources : selectedIds(place.at(field.kind), sources, insideOf(shape).rest);
+  return { [name]: field.kind, [`${name}/sources`]: ids };
 }
 
-export const edgeMaterial: Method = {
-  name: "edge-material",
-  options,
-  live: Object.keys(options),
-  carries: false,
+function unpackField(name: string, values: RawValues, dimension: number): MaterialField | undefined {
+  const kind = values[name] as string;
+  const of = (part: string) => values[`${name}/${part}`];
+  if (kind === "strokes") return { strokes: unpackLists(`${name}/strokes`, values).map((stroke) => rowsOf(stroke, dimension)) };
+  if (kind === "axis") return { axis: rowsOf(of("axis"), dimension)[0] };
+  if (kind === "geodesic") return { geodesic: Array.from(of("sources") as ArrayLike<number>) };
+  return kind === "max" || kind === "min" ? { curvature: kind } : undefined;
+}
 
-  check(place, given) {
-    const { stretch, lambda, bend } = given as Read;
-    if (stretch !== undefined && lambda !== undefined) place.reject("has stretch and lambda; expected one or the other");
+const stiffness = { min: 0.01, max: 1000, step: 0.1, log: true } as const;
+const share = { default: 1, min: 0, max: 1, step: 0.05 } as const;
+
+export const edgeMaterial = method({
+  name: "edge-material",
+  title: "Material edges",
+  short: "Material",
+  paper: "Material Aware Mesh Deformation",
+  help: "Edges that resist stretching and bending, each as stiff as you like: cloth, rubber, wood.",
+  carries: false,
+  curves: false,
+  draws: ["field"],
+  live: true,
+  loads: ["gravity"],
+  options: {
+    stretch: number(notNegative, {
+      title: "Stretch", default: 1, ...stiffness,
+      help: "Stiffness against stretching, the same at every resolution: lambda = stretch (mean edge / diagonal)^2.",
+    }),
+    lambda: number(notNegative, {
+      title: "Lambda", min: 1e-6, max: 10, step: 0.1, log: true, advanced: true, instead: ["stretch"],
+      help: "The paper's own stiffness against stretching, instead of stretch.",
+    }),
+    bend: number(notNegative, { title: "Bend", default: 1, ...stiffness, max: 100, help: "Stiffness against bending, the paper's mu." }),
+    pStretch: number(fraction, { title: "Stretch now", ...share, help: "The part of the stretch stiffness that acts; changing it costs nothing." }),
+    pBend: number(fraction, { title: "Bend now", ...share, help: "The part of the bend stiffness that acts; changing it costs nothing." }),
+    gravity: vector({
+      title: "Gravity", default: [0, 0, 0], min: 0, max: 3, step: 0.05,
+      help: "Where everything falls that is not held: the force on a vertex is gravity lambda (diagonal) / (vertices).",
+    }),
+    field: option<MaterialField | null>("field", {
+      title: "Grain",
+      help: "The direction in which it is stiff, as in wood or woven cloth: painted strokes, an axis, along the most or least curved, or along shortest paths.",
+    }, { read: (place, value, extent) => (value === null ? null : readField(place, value, extent)), pack: packField, unpack: unpackField }),
+  },
+
+  check(place, { stretch, lambda, bend }) {
     if (bend === 0 && (lambda ?? stretch) === 0) place.reject(`has bend and ${lambda === 0 ? "lambda" : "stretch"} of 0; expected one of them above 0`);
   },
-
-  merge(before, given) {
-    const { stretch, lambda, ...others } = before as Read;
-    const other = "stretch" in given || "lambda" in given ? {} : { stretch, lambda };
-    return { ...others, ...other, ...given };
-  },
-
-  load: (given) => Array.from((given as Read).gravity ?? []).some((g) => g !== 0),
-
-  build(core, raw, shape, given, place) {
-    const packed = pack(core, shape, given, place);
-    return insideOf(shape).owned.call((rawShape) => raw.buildEdgeMaterial(rawShape, ...packed));
-  },
-
-  update: (core, raw, shape, given, place) => raw.setEdgeMaterial(...pack(core, shape, given, place)),
-  field: (raw) => raw.field(),
-};
+});

@@ -1,45 +1,14 @@
 // embedded-graph: Sumner, Schmid, Pauly, Embedded Deformation for Shape Manipulation (2007).
 
-import { choice, filled, flag, integer, type Place, points, positive, toSpace } from "../boundary/check.js";
+import { filled, integer as readInteger, type Place, positive } from "../boundary/check.js";
+import { packLists, unpackLists } from "../boundary/lists.js";
 import { type Extent, readSelection, type Select, selectedIds, type Selection } from "../shape/selection.js";
 import { insideOf } from "../shape/shape.js";
-import type { Method } from "./method.js";
-
-/** Options of `embedded-graph`. */
-export interface EmbeddedGraphOptions {
-  method: "embedded-graph";
-  /** Nodes of the graph: 250, or as many as the shape has points. */
-  nodeCount?: number;
-  /** Nodes placed by hand, instead of `nodeCount` and `sampling`. */
-  nodes?: readonly ArrayLike<number>[] | Float32Array | Float64Array;
-  /** Nodes spread evenly over the surface, or what simplification of the mesh leaves. */
-  sampling?: "surface" | "simplify";
-  /** Nodes that influence a vertex: 4. */
-  neighbours?: number;
-  rotationWeight?: number;
-  regularizationWeight?: number;
-  constraintWeight?: number;
-  /** "gauss-newton" is the paper's solver, the reference; "auto" reaches the same energy sooner. */
-  solver?: "auto" | "gauss-newton";
-  /** Meets targets exactly where the graph can. */
-  exactHandles?: boolean;
-  /** Pairs of regions that must not influence each other: a hand beside a leg. */
-  cuts?: readonly (readonly [Selection, Selection])[];
-  /** Adds up to half as many nodes where the energy is high, once `solve` has converged. */
-  refine?: boolean;
-  /** Of the random layout of nodes: 1. */
-  seed?: number;
-}
-
-/** After reading: what is left out is undefined. */
-interface Read extends Pick<EmbeddedGraphOptions, "nodeCount" | "sampling" | "neighbours" | "rotationWeight"
-  | "regularizationWeight" | "constraintWeight" | "solver" | "exactHandles" | "refine" | "seed"> {
-  nodes?: ArrayLike<number>;
-  cuts?: Select[][];
-}
+import { method } from "./method.js";
+import { choice, flag, integer, number, option, points } from "./option.js";
 
 export function readSeed(place: Place, value: unknown): number {
-  return integer(place, value, 0, Number.MAX_SAFE_INTEGER);
+  return readInteger(place, value, 0, Number.MAX_SAFE_INTEGER);
 }
 
 function readCuts(place: Place, value: unknown, extent: Extent): Select[][] {
@@ -50,66 +19,64 @@ function readCuts(place: Place, value: unknown, extent: Extent): Select[][] {
   });
 }
 
-/** |a|, a..., |b|, b... for each cut. */
-function packCuts(place: Place, cuts: Select[][], rest: Float64Array): number[] {
-  return cuts.flatMap((cut, i) => cut.flatMap((side, j) => {
-    const ids = selectedIds(place.item(i).item(j), side, rest);
-    return [ids.length, ...ids];
-  }));
-}
+const weight = { min: 0.1, max: 10, step: 0.1 } as const;
 
-export const embeddedGraph: Method = {
+export const embeddedGraph = method({
   name: "embedded-graph",
-  options: {
-    nodeCount: (place, value, { count }) => integer(place, value, 1, count, "a number of nodes"),
-    nodes: (place, value, { dimension }) => toSpace(points(place, value, dimension), dimension),
-    sampling: (place, value) => choice(place, value, ["surface", "simplify"]),
-    neighbours: (place, value) => integer(place, value, 1, 2 ** 31 - 1, "a number of nodes"),
-    rotationWeight: positive,
-    regularizationWeight: positive,
-    constraintWeight: positive,
-    solver: (place, value) => choice(place, value, ["auto", "gauss-newton"]),
-    exactHandles: flag,
-    cuts: readCuts,
-    refine: flag,
-    seed: readSeed,
-  },
-  live: [],
+  title: "Embedded graph",
+  short: "Graph",
+  paper: "Sumner, Schmid, Pauly: Embedded Deformation for Shape Manipulation (2007)",
+  help: "A coarse graph of rotating nodes carries the shape.",
   carries: true,
+  curves: false,
+  draws: ["graph"],
+  live: false,
+  loads: [],
+  options: {
+    nodeCount: integer(1, "vertices", "a number of nodes", {
+      title: "Nodes", default: 250, min: 20, max: 800, step: 10,
+      help: "How many nodes carry the shape, or as many as it has points: more follow finer bends.",
+    }),
+    nodes: points({ title: "Nodes by hand", advanced: true, instead: ["nodeCount", "sampling"], help: "Where the nodes are, instead of how many." }),
+    sampling: choice(["surface", "simplify"], {
+      title: "Sampling", default: "surface", advanced: true,
+      help: "Nodes spread evenly over the surface, or what simplification of the mesh leaves.",
+    }),
+    neighbours: integer(1, 2 ** 31 - 1, "a number of nodes", {
+      title: "Blend", default: 4, min: 2, max: 10, step: 1, limit: "nodeCount",
+      help: "How many nodes carry each point: more blend more softly.",
+    }),
+    regularizationWeight: number(positive, { title: "Smoothness", default: 10, min: 1, max: 50, step: 1, help: "How much neighbouring nodes agree." }),
+    rotationWeight: number(positive, { title: "Rigidity", default: 1, ...weight, help: "How much each node keeps to a rotation." }),
+    constraintWeight: number(positive, {
+      title: "Handles", default: 100, min: 1, max: 1000, step: 1, advanced: true, help: "How much handles keep to their targets, where they are not exact.",
+    }),
+    solver: choice(["auto", "gauss-newton"], {
+      title: "Solver", default: "auto", advanced: true, help: "gauss-newton is the paper's, the reference; auto reaches the same energy sooner.",
+    }),
+    exactHandles: flag({ title: "Exact handles", default: false, help: "Handles reach their targets exactly where the graph can, not only nearly." }),
+    cuts: option<readonly (readonly [Selection, Selection])[]>("cuts", {
+      title: "Cuts", advanced: true, help: "Pairs of regions that must not influence each other: a hand beside a leg.",
+    }, {
+      read: readCuts,
+      pack: (name, cuts: Select[][], place, shape) => packLists(name, cuts.flatMap((cut, i) =>
+        cut.map((side, j) => selectedIds(place.item(i).item(j), side, insideOf(shape).rest)))),
+      unpack(name, values) {
+        const sides = unpackLists(name, values).map((vertices) => ({ vertices }));
+        return sides.length === 0 ? undefined : sides.flatMap((side, i) => (i % 2 === 0 ? [[side, sides[i + 1]]] : []));
+      },
+    }),
+    refine: flag({ title: "Refine", default: false, advanced: true, help: "Adds up to half as many nodes where the energy is high, once solve has converged." }),
+    seed: option<number>("integer", {
+      title: "Seed", default: 1, min: 0, max: 1000, step: 1, advanced: true, help: "Of the random layout of nodes.",
+    }, { read: readSeed, unpack: (name, values) => (values[name] as ArrayLike<number>)[0] }),
+  },
 
   check(place, options) {
-    const { nodes, nodeCount, sampling, neighbours } = options as Read;
-    if (nodes && nodeCount !== undefined) place.reject("has nodes and nodeCount; expected one or the other");
-    if (nodes && sampling !== undefined) place.reject("has nodes and sampling; expected one or the other");
+    const { nodes, nodeCount, neighbours } = options as { nodes?: ArrayLike<number>; nodeCount?: number; neighbours?: number };
     const count = nodes ? nodes.length / 3 : nodeCount;
     if (neighbours !== undefined && count !== undefined && neighbours > count) {
       place.at("neighbours").fail(neighbours, `at most the ${count} nodes of the graph`);
     }
   },
-
-  build(core, raw, shape, options, place) {
-    const read = options as Read;
-    const cuts = packCuts(place.at("cuts"), read.cuts ?? [], insideOf(shape).rest);
-    const values = {
-      nodeCount: read.nodeCount ?? 0,
-      sampling: read.nodes ? "nodes" : (read.sampling ?? "surface"),
-      neighbours: read.neighbours ?? 0,
-      rotationWeight: read.rotationWeight ?? 1,
-      regularizationWeight: read.regularizationWeight ?? 10,
-      constraintWeight: read.constraintWeight ?? 100,
-      solver: read.solver ?? "auto",
-      exactHandles: read.exactHandles ?? false,
-      seed: read.seed ?? 1,
-    };
-    return insideOf(shape).owned.call((rawShape) =>
-      raw.buildEmbeddedGraph(rawShape, values, core.stage(read.nodes ?? [], cuts)));
-  },
-
-  refine(raw, shape, options) {
-    const { refine, nodes, nodeCount } = options as Read;
-    if (!refine) return undefined;
-    const { vertices, weldedVertices } = shape.report;
-    const count = nodes ? nodes.length / 3 : (nodeCount ?? Math.min(250, vertices - weldedVertices));
-    return raw.refine(Math.ceil(count / 2));
-  },
-};
+});

@@ -1,6 +1,7 @@
 // TRANSFORM of the edit script: how a handle moves from its rest position.
 
 import { direction, fields, finite, type Place, positive, toSpace, vector } from "../boundary/check.js";
+import type { RawValues } from "../boundary/raw.js";
 
 /** Applied in this order: scale about the centroid of the handle, rotate, translate; or a matrix. */
 export interface Transform {
@@ -58,11 +59,11 @@ function readMatrix(place: Place, value: unknown, dimension: number): number[] {
   return m;
 }
 
-/** The numbers a RawDeformer takes: scale, center, axis, angle in radians, about, translation. */
-export function packMotion(motion: Steps, center: number[]): number[] {
-  const { scale, axis, degrees, about = center, translate } = motion;
+/** A motion as a RawDeformer takes it. */
+export function packMotion({ scale, axis, degrees, about, translate }: Steps, center: number[]): RawValues {
+  const angle = (degrees * Math.PI) / 180;
   // Without a scale the centre plays no part: as the origin it costs no rounding either.
-  return [scale, ...(scale === 1 ? [0, 0, 0] : center), ...axis, (degrees * Math.PI) / 180, ...about, ...translate];
+  return { scale, center: scale === 1 ? [0, 0, 0] : center, axis, angle, about: about ?? center, translation: translate };
 }
 
 /** Where a motion takes points, `dimension` numbers each; `center`: theirs, in space. */

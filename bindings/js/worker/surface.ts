@@ -65,7 +65,7 @@ const deformation = {
 
 export const surface = {
   Pliant: {
-    constants: [],
+    constants: ["methods"],
     calls: {
       shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" }, open: { gives: "Edit" },
       limbStroke: plain, measure: plain, edit: { options: 2 },

@@ -1,12 +1,12 @@
 // What a Sketch saves, and takes back.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "pliant/sketch/drawing.h"
 #include "pliant/sketch/sketch_impl.h"
 
 namespace pliant {
@@ -18,46 +18,20 @@ void append(StateTable& table, const Points& points) {
   table.data.insert(table.data.end(), points.data(), points.data() + points.size());
 }
 
-void add_profile(State& state, const char* name, const Profile& profile) {
-  StateTable& table = state.add(name, 2, false);
-  for (const auto& [s, value] : profile.points()) table.data.insert(table.data.end(), {s, value});
-}
-
-void add_pose(State& state, const SketchPose& pose, double morph) {
-  state.add("pose/heading", 0, false).data = {pose.heading};
-  state.add("pose/turns", 1, false).data = pose.turns;
-  state.add("pose/length", 0, false).data = {pose.length};
-  add_profile(state, "pose/twist", pose.twist);
-  add_profile(state, "pose/scale", pose.scale);
-  state.add("morph", 0, false).data = {morph};
-}
-
-Result<Profile> read_profile(const StateTable& table) {
-  std::vector<Profile::Point> points;
-  for (std::size_t i = 0; i + 1 < table.data.size(); i += 2) points.emplace_back(table.data[i], table.data[i + 1]);
-  return Profile::create(points, table.name.c_str());
-}
-
-Result<SketchPose> read_pose(const State& state) {
-  std::array<const StateTable*, 5> tables;
-  constexpr std::array kNames = {"pose/heading", "pose/turns", "pose/length", "pose/twist", "pose/scale"};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    tables[i] = state.find(kNames[i]);
-    const bool scalar = i == 0 || i == 2;
-    if (tables[i] != nullptr && (!scalar || tables[i]->data.size() == 1)) continue;
-    return invalid(std::string("the state has no ") + kNames[i] + "; expected one of a sketch");
+/// `pose/heading` and so on, a table each.
+void add_pose(State& state, const SketchPose& pose) {
+  for (NamedValue& value : named_pose(pose)) {
+    const int columns = value.name == "turns" ? 1 : value.name == "twist" || value.name == "scale" ? 2 : 0;
+    state.add("pose/" + value.name, columns, false).data = std::move(value.numbers);
   }
-  const auto [heading, turns, length, twist, scale] = tables;
-  Result<Profile> twisted = read_profile(*twist), scaled = read_profile(*scale);
-  if (!twisted.ok()) return twisted.status();
-  if (!scaled.ok()) return scaled.status();
-  SketchPose pose;
-  pose.heading = heading->data[0];
-  pose.turns = turns->data;
-  pose.length = length->data[0];
-  pose.twist = std::move(*twisted);
-  pose.scale = std::move(*scaled);
-  return pose;
+}
+
+Result<SketchPose> pose_of(const State& state) {
+  NamedValues given;
+  for (const StateTable& table : state.tables) {
+    if (table.name.starts_with("pose/")) given.push_back({table.name.substr(5), {}, table.data});
+  }
+  return read_pose(given);
 }
 
 /// A state of this region and this stroke over it: poses are relative to both.
@@ -123,7 +97,8 @@ State Sketch::save() const {
   for (StateTable* table : {&labels, &s, &angles, &reference, &target, &normals}) {
     state.tables.push_back(std::move(*table));
   }
-  add_pose(state, pose, impl.morph);
+  add_pose(state, pose);
+  state.add("morph", 0, false).data = {impl.morph};
   if (impl.limbs.size() > 1) state.tables.push_back(std::move(sides));
   if (with_joints) {
     for (StateTable* table : {&joints, &twists, &scales}) state.tables.push_back(std::move(*table));
@@ -150,7 +125,7 @@ Status Sketch::restore(const State& state) {
   if (added > 0 && parents->data != numbers_of(impl_->refinement)) {
     return invalid("parents of the state are not those of this sketch; expected the same refinement, or none");
   }
-  const Result<SketchPose> pose = read_pose(state);
+  const Result<SketchPose> pose = pose_of(state);
   if (!pose.ok()) return pose.status();
   const double before = std::exchange(impl_->morph, morph->data[0]);
   if (Status status = set_pose(*pose); !status.ok()) {

@@ -49,6 +49,16 @@ Status Deformer::take_changes() {
   return {};
 }
 
+Status Deformer::set_options(const NamedValues& given) {
+  if (given.empty()) return {};
+  return {ErrorCode::invalid_option,
+          message({given.front().name, " cannot change while a deformer lives; expected none, or another deformer"})};
+}
+
+Result<Points> Deformer::field() const {
+  return Status(ErrorCode::not_solvable, "this method has no directions; expected one whose material has");
+}
+
 Result<StepReport> Deformer::step(double tolerance) {
   if (!(tolerance > 0.0)) {
     return Status(ErrorCode::invalid_option, message({"tolerance is ", tolerance, "; expected a number above 0"}));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pliant/core/named_values.h"
 #include "pliant/solve/constraints.h"
 #include "pliant/solve/deformation.h"
 #include "pliant/solve/prediction.h"
@@ -68,8 +69,19 @@ class Deformer : public Deformation {
   /// Errors: not_solvable, too_large (on the first step of a grab); the state is then unchanged.
   Result<StepReport> step(double tolerance = 1e-6);
   /// Terms at the current deformation and targets.
+  /// Improves the model where a converged solution falls short, once, if the options ask for it.
+  /// Returns how many parts were added; above 0 there is more to solve. Errors: too_large.
+  virtual Result<Index> refine() { return Index{0}; }
   virtual Energy energy() const = 0;
   virtual Counters counters() const = 0;
+
+  // -- Options.
+  /// Changes options of a living deformer by their names; those not given stay, as do handles,
+  /// targets and the deformation. Errors: invalid_option (here: nothing may change); then nothing
+  /// has changed.
+  virtual Status set_options(const NamedValues& given);
+  /// The options in use: what build_deformer takes.
+  virtual NamedValues options_by_name() const = 0;
 
   // -- Results.
   Points positions() const final { return shape().scatter(point_positions()); }
@@ -77,6 +89,9 @@ class Deformer : public Deformation {
   /// Deformed positions of the shape's points, 3 x p.
   virtual Points point_positions() const = 0;
   virtual Points point_normals() const = 0;
+  /// Directions the material has, 3 x n, unit or zero, one a vertex, for drawing them.
+  /// Errors: not_solvable where there are none, as here.
+  virtual Result<Points> field() const;
   void reset() final;
   State save() const final;
   Status restore(const State& state) final;

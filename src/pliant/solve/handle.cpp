@@ -21,4 +21,13 @@ Eigen::Vector3d turn_between(const std::optional<Motion>& before, const Motion& 
   return (after.angle - std::copysign(before->angle, along * before->angle)) * axis;
 }
 
+void exchange(NamedFields& fields, Motion& motion) {
+  fields("scale", motion.scale);
+  fields("center", motion.center);
+  fields("axis", motion.axis);
+  fields("angle", motion.angle);
+  fields("about", motion.about);
+  fields("translation", motion.translation);
+}
+
 }  // namespace pliant

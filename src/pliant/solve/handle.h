@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "pliant/core/types.h"
+#include "pliant/core/named_values.h"
 
 namespace pliant {
 
@@ -26,6 +26,8 @@ struct Motion {
   Eigen::Affine3d map() const;
   Eigen::Vector3d apply(const Eigen::Vector3d& p) const { return map() * p; }
 };
+
+void exchange(NamedFields& fields, Motion& motion);
 
 /// Turn from one motion to another about the same axis, axis times angle, of any size; zero where
 /// they do not share one or the earlier one is not known.

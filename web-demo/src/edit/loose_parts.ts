@@ -1,4 +1,5 @@
 // Keeps loose parts on what they belong to (shapes/riders.ts), and tells the script about it.
+import { carriesSpace } from "../methods.ts";
 import { carry, ridersOf, type Rider } from "../shapes/riders.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import type { Topology } from "../shapes/topology.ts";
@@ -16,8 +17,7 @@ export class LooseParts {
 
   /** Those that ride: not where the method carries space, nor those held or drawn on themselves. `labels`: of the limb under strokes. */
   find({ sketch, method, handles, fixed }: Doc, labels: ArrayLike<number> | undefined): void {
-    const carriesSpace = (sketch ? sketch.finish : method) === "embedded-graph";
-    if (carriesSpace || this.riders.length === 0) {
+    if (carriesSpace(sketch ? sketch.finish : method) || this.riders.length === 0) {
       this.free = [];
       return;
     }

@@ -23,9 +23,6 @@ export type Control = (typeof controls)[number];
 /** A control by its values at s = 0, 1/4, 1/2, 3/4 and 1. */
 export type Knots = readonly number[];
 
-/** Methods that can finish what a sketch began, with names that fit a small menu. */
-export const finishers = { arap: "ARAP", "edge-material": "Material", "embedded-graph": "Graph" } as const;
-
 export interface SketchDoc {
   readonly camera: SketchCamera;
   readonly reference: readonly Pixel[];

@@ -1,7 +1,7 @@
 // What can be set on the limb under strokes: what a stroke does, morph, smoothing, the spline controls.
 import type { Session } from "../edit/session.ts";
-import { controls, finishers, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
-import { methodOf } from "../methods.ts";
+import { controls, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
+import { methods } from "../methods.ts";
 import { boundingBox } from "../shapes/shape.ts";
 import { strokeModes, type SketchTool, type StrokeMode } from "../tools/sketch.ts";
 import { byId, make } from "./dom.ts";
@@ -41,7 +41,7 @@ export class LimbPanel {
     this.check("refine", (refine) => this.pose({ refine }));
     this.check("keep-length", (on) => (tool.keepsLength = on));
     this.check("mirror", (on) => this.setMirror(on));
-    this.finish.append(make("option", { value: "" }, "Nothing"), ...Object.entries(finishers).map(([value, label]) => make("option", { value, title: methodOf(value).help }, label)));
+    this.finish.append(make("option", { value: "" }, "Nothing"), ...methods.map(({ id, short, help }) => make("option", { value: id, title: help }, short)));
     this.finish.addEventListener("change", () => this.pose({ finish: this.finish.value }));
     for (const control of controls) this.addSpline(control);
   }

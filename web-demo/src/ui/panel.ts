@@ -82,7 +82,7 @@ export class Panel {
     byId("shapes").querySelector(".file span")!.textContent = known ? "Open a file…" : `${doc.shape.name} · open another…`;
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
-    byId("graph").parentElement!.hidden = doc.method !== "embedded-graph";
+    byId("graph").parentElement!.hidden = !methodOf(doc.method).draws.includes("graph");
     for (const control of this.controls) control(doc.options);
     this.clear.hidden = !isPainting(doc.method, doc.options) || (doc.options["strokes"] as Strokes).length === 0;
   }
@@ -100,7 +100,7 @@ export class Panel {
     this.shownMethod = method;
     this.controls = [];
     this.options.replaceChildren(...methodOf(method).options.map((option) =>
-      "min" in option ? this.slider(option, methodOf(method).live ?? false) : "choices" in option ? this.select(option) : this.toggle(option)), this.clear);
+      "min" in option ? this.slider(option, methodOf(method).live) : "choices" in option ? this.select(option) : this.toggle(option)), this.clear);
   }
 
   private slider({ key, label, help, min, max, step, log }: Extract<MethodOption, { min: number }>, live: boolean): HTMLElement {

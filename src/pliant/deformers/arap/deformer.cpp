@@ -43,6 +43,13 @@ Status Arap::set_options(const ArapOptions& options) {
   return {};
 }
 
+Status Arap::set_options(const NamedValues& given) {
+  ArapOptions options = impl_->options;
+  if (Status s = read(given, options); !s.ok()) return s;
+  return set_options(options);
+}
+
+NamedValues Arap::options_by_name() const { return named(impl_->options); }
 const ArapOptions& Arap::options() const { return impl_->options; }
 LocalModel& Arap::model() const { return *impl_->model; }
 

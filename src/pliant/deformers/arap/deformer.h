@@ -22,7 +22,9 @@ class Arap final : public LocalGlobalDeformer {
   /// `smoothness` above 0: one factorisation; soft against exact handles, or `smoothness` switched
   /// on or off: an analysis and one factorisation. Errors: invalid_option; then nothing changes.
   Status set_options(const ArapOptions& options);
+  Status set_options(const NamedValues& given) override;
   const ArapOptions& options() const;
+  NamedValues options_by_name() const override;
 
   /// Terms: `rigidity`, with a smoothness above 0 `smoothness`, with soft handles `constraint`.
   Energy energy() const override;

@@ -19,4 +19,10 @@ Status ArapOptions::validate() const {
   return {};
 }
 
+void exchange(NamedFields& fields, ArapOptions& options) {
+  fields("energy", options.energy, {"spokes", "spokes-and-rims"});
+  fields("constraintWeight", options.constraint_weight);
+  fields("smoothness", options.smoothness);
+}
+
 }  // namespace pliant

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "pliant/core/status.h"
+#include "pliant/core/named_values.h"
 #include "pliant/geometry/shape.h"
 
 namespace pliant {
@@ -36,5 +36,7 @@ struct ArapOptions {
   /// Errors: invalid_option, naming the option, its value and what was expected.
   Status validate() const;
 };
+
+void exchange(NamedFields& fields, ArapOptions& options);
 
 }  // namespace pliant

@@ -71,9 +71,16 @@ Status EdgeMaterial::set_options(const EdgeMaterialOptions& options) {
   return {};
 }
 
+Status EdgeMaterial::set_options(const NamedValues& given) {
+  EdgeMaterialOptions options = impl_->options;
+  if (Status s = read(given, options); !s.ok()) return s;
+  return set_options(options);
+}
+
+NamedValues EdgeMaterial::options_by_name() const { return named(impl_->options); }
 const EdgeMaterialOptions& EdgeMaterial::options() const { return impl_->options; }
 double EdgeMaterial::lambda() const { return impl_->model.weights().lambda; }
-Points EdgeMaterial::field() const { return shape().scatter(impl_->field); }
+Result<Points> EdgeMaterial::field() const { return shape().scatter(impl_->field); }
 LocalModel& EdgeMaterial::model() const { return impl_->model; }
 
 Energy EdgeMaterial::energy() const {

@@ -23,11 +23,12 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   /// `stretch`, `lambda`, `bend` and `field`: one factorisation, no analysis. Errors:
   /// invalid_option, not_solvable, too_large (from the field); then nothing changes.
   Status set_options(const EdgeMaterialOptions& options);
+  Status set_options(const NamedValues& given) override;
   const EdgeMaterialOptions& options() const;
+  NamedValues options_by_name() const override;
   /// The lambda in use (eq. 7).
   double lambda() const;
-  /// The field in use, 3 x n, unit or zero, one vector an input vertex: for drawing it.
-  Points field() const;
+  Result<Points> field() const override;
 
   /// Terms: `stretch` (weight lambda p_stretch), `bend` (weight mu p_bend), `gravity`, and
   /// `constraint`, which is 0: handles are exact.

@@ -70,4 +70,19 @@ Status EdgeMaterialOptions::validate(const Shape& shape) const {
   return check_field(field, shape);
 }
 
+void exchange(NamedFields& fields, EdgeMaterialOptions& options) {
+  if (fields.gives("stretch")) options.lambda.reset();
+  fields("stretch", options.stretch);
+  fields("lambda", options.lambda);
+  fields("bend", options.bend);
+  fields("pStretch", options.p_stretch);
+  fields("pBend", options.p_bend);
+  fields("gravity", options.gravity);
+  if (fields.gives("field")) options.field = {};
+  fields("field", options.field.kind, {"none", "strokes", "axis", "max", "min", "geodesic"});
+  fields("field/strokes", options.field.strokes);
+  fields("field/axis", options.field.axis);
+  fields("field/sources", options.field.sources);
+}
+
 }  // namespace pliant

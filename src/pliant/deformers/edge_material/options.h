@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "pliant/core/status.h"
+#include "pliant/core/named_values.h"
 #include "pliant/geometry/shape.h"
 
 namespace pliant {
@@ -48,5 +48,8 @@ struct EdgeMaterialOptions {
   /// Errors: invalid_option, naming the option, its value and what was expected.
   Status validate(const Shape& shape) const;
 };
+
+/// `stretch` and `lambda` stand for one another: giving one takes the other back.
+void exchange(NamedFields& fields, EdgeMaterialOptions& options);
 
 }  // namespace pliant

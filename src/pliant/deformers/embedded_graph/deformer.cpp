@@ -29,6 +29,7 @@ struct EmbeddedGraph::Impl {
   Points rest_normals;
 
   embedded::GraphStart start{solver};
+  bool refined = false;
 
   embedded::Weights weights() const {
     return {options.rotation_weight, options.regularization_weight, options.constraint_weight};
@@ -216,6 +217,20 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
   impl_->graph = std::move(refined);
   pattern_changed();
   return static_cast<Index>(fresh.cols());
+}
+
+Result<Index> EmbeddedGraph::refine() {
+  if (!impl_->options.refine || impl_->refined) return Index{0};
+  const Result<Index> added = refine((impl_->options.wanted_nodes(shape()) + 1) / 2);
+  impl_->refined = added.ok();
+  return added;
+}
+
+NamedValues EmbeddedGraph::options_by_name() const {
+  EmbeddedGraphOptions options = impl_->options;
+  if (options.sampling != NodeSampling::nodes) options.node_count = options.wanted_nodes(shape());
+  options.neighbours = impl_->graph.influences.k;
+  return named(std::move(options));
 }
 
 State EmbeddedGraph::do_save() const {

@@ -20,7 +20,9 @@ class EmbeddedGraph final : public Deformer {
   /// future work); the deformation carries over, handles and fixed region stay. Returns how many
   /// were added: 0 where no node stands out. Errors: invalid_option (max_nodes < 1), too_large.
   Result<Index> refine(Index max_nodes);
+  Result<Index> refine() override;
 
+  NamedValues options_by_name() const override;
   /// Terms: `rotation`, `regularization`, `constraint` (eq. 5 to 8) and, where a node is near collapse,
   /// `barrier` (barrier.h), weighted as `rotation`.
   Energy energy() const override;

@@ -6,6 +6,8 @@
 namespace pliant {
 namespace {
 
+constexpr Index kDefaultNodes = 250;
+
 Status invalid(std::string message) { return {ErrorCode::invalid_option, std::move(message)}; }
 
 Status check_weight(const char* name, double value, bool zero_allowed) {
@@ -45,22 +47,18 @@ Status check_cut(const Cut& cut, const Shape& shape) {
 
 Status EmbeddedGraphOptions::validate(const Shape& shape) const {
   const Index points = static_cast<Index>(shape.points().cols());
-  Index available = points;
   if (sampling == NodeSampling::nodes) {
     if (node_count != 0) return invalid("nodes and nodeCount are both given; expected one of them");
     if (nodes.cols() == 0) return invalid("nodes is empty; expected at least one position");
     if (!nodes.allFinite()) return invalid("nodes holds a number that is not finite");
-    available = static_cast<Index>(nodes.cols());
   } else if (node_count != 0) {
     if (Status s = check_count("nodeCount", node_count, points, "points of the shape"); !s.ok()) return s;
-    available = node_count;
   }
   if (sampling == NodeSampling::simplify && shape.triangles().cols() == 0) {
     return invalid("sampling is \"simplify\", but the shape has no triangles; expected \"surface\"");
   }
   if (neighbours != 0) {
-    const Index most = node_count == 0 && sampling != NodeSampling::nodes ? std::min<Index>(250, points) : available;
-    if (Status s = check_count("neighbours", neighbours, most, "nodes"); !s.ok()) return s;
+    if (Status s = check_count("neighbours", neighbours, wanted_nodes(shape), "nodes"); !s.ok()) return s;
   }
   if (Status s = check_weight("rotationWeight", rotation_weight, false); !s.ok()) return s;
   if (Status s = check_weight("regularizationWeight", regularization_weight, false); !s.ok()) return s;
@@ -69,6 +67,34 @@ Status EmbeddedGraphOptions::validate(const Shape& shape) const {
     if (Status s = check_cut(cut, shape); !s.ok()) return s;
   }
   return {};
+}
+
+Index EmbeddedGraphOptions::wanted_nodes(const Shape& shape) const {
+  if (sampling == NodeSampling::nodes) return static_cast<Index>(nodes.cols());
+  return node_count != 0 ? node_count : std::min(kDefaultNodes, static_cast<Index>(shape.points().cols()));
+}
+
+void exchange(NamedFields& fields, EmbeddedGraphOptions& options) {
+  if (fields.gives("nodes")) options.sampling = NodeSampling::nodes;
+  if (options.sampling == NodeSampling::nodes) {
+    fields("nodes", options.nodes);
+  } else {
+    fields("nodeCount", options.node_count);
+    fields("sampling", options.sampling, {"surface", "simplify"});
+  }
+  fields("neighbours", options.neighbours);
+  fields("rotationWeight", options.rotation_weight);
+  fields("regularizationWeight", options.regularization_weight);
+  fields("constraintWeight", options.constraint_weight);
+  fields("solver", options.solver, {"auto", "gauss-newton"});
+  fields("exactHandles", options.exact_handles);
+  std::vector<std::vector<Index>> sides;
+  for (const Cut& cut : options.cuts) sides.insert(sides.end(), {cut.a, cut.b});
+  fields("cuts", sides);
+  options.cuts.clear();
+  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) options.cuts.push_back({sides[i], sides[i + 1]});
+  fields("refine", options.refine);
+  fields("seed", options.seed);
 }
 
 }  // namespace pliant

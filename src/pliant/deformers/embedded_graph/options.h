@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pliant/core/status.h"
+#include "pliant/core/named_values.h"
 #include "pliant/geometry/shape.h"
 
 namespace pliant {
@@ -38,10 +38,17 @@ struct EmbeddedGraphOptions {
   EmbeddedGraphSolver solver = EmbeddedGraphSolver::automatic;
   bool exact_handles = false;  ///< targets are met exactly where the graph can meet them
   std::vector<Cut> cuts = {};
+  /// `refine()` adds up to half as many nodes where the energy is high.
+  bool refine = false;
   std::uint64_t seed = 1;
 
   /// Errors: invalid_option, naming the option, its value and what was expected.
   Status validate(const Shape& shape) const;
+  /// Nodes that are asked for: placed, counted, or the default for a shape.
+  Index wanted_nodes(const Shape& shape) const;
 };
+
+/// `nodes` stands for `nodeCount` and `sampling`.
+void exchange(NamedFields& fields, EmbeddedGraphOptions& options);
 
 }  // namespace pliant
