@@ -80,9 +80,13 @@ void bench_energy(const Reporter& reporter, ArapEnergy energy, const std::string
 
 }  // namespace
 
-void bench_arap(const Reporter& reporter) {
+static void bench_arap(const Reporter& reporter) {
   bench_energy(reporter, ArapEnergy::spokes, "arap spokes");
   bench_energy(reporter, ArapEnergy::spokes_and_rims, "arap rims");
+}
+
+namespace {
+const Bench bench(bench_arap);
 }
 
 }  // namespace pliant::bench

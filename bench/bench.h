@@ -27,10 +27,13 @@ class Reporter {
   std::vector<std::string> words_;
 };
 
-void bench_embedded_graph(const Reporter& reporter);
-void bench_arap(const Reporter& reporter);
-void bench_edge_material(const Reporter& reporter);
-void bench_sketch(const Reporter& reporter);
-void bench_cgal(const Reporter& reporter);  ///< only where CMake finds CGAL
+/// Announces benches, which run in the order of the sources in CMakeLists.txt:
+///   const Bench bench(bench_arap);
+class Bench {
+ public:
+  using Run = void (*)(const Reporter& reporter);
+  explicit Bench(Run run) { all().push_back(run); }
+  static std::vector<Run>& all();
+};
 
 }  // namespace pliant::bench

@@ -85,7 +85,7 @@ double timed(const std::function<void()>& call) {
 
 }  // namespace
 
-void bench_cgal(const Reporter& reporter) {
+static void bench_cgal(const Reporter& reporter) {
   if (!reporter.wants("arap against CGAL")) return;
   const SurfaceScene scene(test::torus(170, 64));
   const auto ours = std::move(Arap::create(scene.shape, {.energy = ArapEnergy::spokes_and_rims}).value());
@@ -120,6 +120,10 @@ void bench_cgal(const Reporter& reporter) {
   reporter.report("arap against CGAL: settled to 1e-4", our_settled, their_settled,
                   iterations < kPatience ? "CGAL: " + std::to_string(iterations) + " iterations"
                                          : "CGAL not there after " + std::to_string(kPatience) + " iterations");
+}
+
+namespace {
+const Bench bench(bench_cgal);
 }
 
 }  // namespace pliant::bench

@@ -68,9 +68,13 @@ void bench_torus(const Reporter& reporter) {
 
 }  // namespace
 
-void bench_edge_material(const Reporter& reporter) {
+static void bench_edge_material(const Reporter& reporter) {
   bench_plane(reporter);
   bench_torus(reporter);
+}
+
+namespace {
+const Bench bench(bench_edge_material);
 }
 
 }  // namespace pliant::bench

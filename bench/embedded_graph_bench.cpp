@@ -296,13 +296,17 @@ void bench_building(const Reporter& reporter) {
 
 }  // namespace
 
-void bench_embedded_graph(const Reporter& reporter) {
+static void bench_embedded_graph(const Reporter& reporter) {
   bench_solving(reporter, 226);
   bench_solving(reporter, 1048);
   bench_constraints(reporter);
   bench_frozen(reporter);
   bench_carrying(reporter);
   bench_building(reporter);
+}
+
+namespace {
+const Bench bench(bench_embedded_graph);
 }
 
 }  // namespace pliant::bench

@@ -39,7 +39,7 @@ Stroke arc(double turn) {
 
 }  // namespace
 
-void bench_sketch(const Reporter& reporter) {
+static void bench_sketch(const Reporter& reporter) {
   const std::string name = "sketch 100,000 vertices";
   if (!reporter.wants(name)) return;
   const test::Mesh mesh = test::tube(250, 400, 0.05, 1.0);
@@ -62,6 +62,10 @@ void bench_sketch(const Reporter& reporter) {
   });
   reporter.report(name + " preview frame", frame, kFrameMs, "yardstick: 1/60 s");
   reporter.report(name + " normals", median_ms(15, [&] { shown = sketch->normals(); }), kFrameMs);
+}
+
+namespace {
+const Bench bench(bench_sketch);
 }
 
 }  // namespace pliant::bench
