@@ -12,7 +12,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 
 /** Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the modules alone take 320 kB of what is here, inlined, the glTF library 40. */
-const budget = { raw: 1.5e6, gzip: 622e3 };
+const budget = { raw: 1.5e6, gzip: 630e3 };
 
 /** The module "#shapes": what build-shapes.mjs made. */
 const shapesPlugin = {

@@ -33,11 +33,11 @@ export const embeddedGraph = method({
   live: false,
   loads: [],
   options: {
+    nodes: points({ title: "Nodes by hand", advanced: true, instead: ["nodeCount", "sampling"], help: "Where the nodes are, instead of how many." }),
     nodeCount: integer(1, "vertices", "a number of nodes", {
       title: "Nodes", default: 250, min: 20, max: 800, step: 10,
       help: "How many nodes carry the shape, or as many as it has points: more follow finer bends.",
     }),
-    nodes: points({ title: "Nodes by hand", advanced: true, instead: ["nodeCount", "sampling"], help: "Where the nodes are, instead of how many." }),
     sampling: choice(["surface", "simplify"], {
       title: "Sampling", default: "surface", advanced: true,
       help: "Nodes spread evenly over the surface, or what simplification of the mesh leaves.",

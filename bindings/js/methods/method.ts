@@ -87,7 +87,7 @@ export function method<const D extends Declaration>(declared: D): Omit<Method, "
     check(place, given) {
       for (const name of Object.keys(given)) {
         for (const other of options[name].instead) {
-          if (other in given) place.reject(`has ${name} and ${other}; expected one or the other`);
+          if (other in given) place.reject(`has ${[name, other].sort((a, b) => names.indexOf(a) - names.indexOf(b)).join(" and ")}; expected one or the other`);
         }
       }
       declared.check?.(place, given);

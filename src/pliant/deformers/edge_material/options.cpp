@@ -62,7 +62,8 @@ Status EdgeMaterialOptions::validate(const Shape& shape) const {
   if (Status s = check_range("lambda", lambda.value_or(0.0), kAny); !s.ok()) return s;
   if (Status s = check_range("bend", bend, kAny); !s.ok()) return s;
   if (bend == 0.0 && lambda.value_or(stretch) == 0.0) {
-    return invalid("bend and stretch are both 0; expected one of them above 0");
+    return invalid(std::string("options has bend and ") + (lambda ? "lambda" : "stretch") +
+                   " of 0; expected one of them above 0");
   }
   if (Status s = check_range("pStretch", p_stretch, 1.0); !s.ok()) return s;
   if (Status s = check_range("pBend", p_bend, 1.0); !s.ok()) return s;
