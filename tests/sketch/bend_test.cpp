@@ -175,7 +175,7 @@ TEST_CASE("morph ends at rest and at the pose, and stretches less than a straigh
   const Quality half = measure_quality(sketch->shape(), test::point_positions(*sketch), false);
   const Quality straight = measure_quality(sketch->shape(), 0.5 * (rest + pose), false);
   CHECK(half.stretch_mean <= 0.5 * straight.stretch_mean);
-  CHECK(sketch->set_morph(1.5).message() == "morph is 1.500000; expected a number from 0 to 1");
+  CHECK(sketch->set_morph(1.5).message() == "morph is 1.5; expected a number from 0 to 1");
 }
 
 TEST_CASE("the turning control adds F(s) - s radians a unit of s, whatever the stroke") {

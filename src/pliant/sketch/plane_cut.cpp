@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "pliant/core/disjoint_sets.h"
+#include "pliant/core/sort.h"
 #include "pliant/geometry/adjacency.h"
 #include "pliant/sketch/graph_cut.h"
 
@@ -33,10 +34,7 @@ std::vector<Side> sorted_sides(const Triangles& triangles, std::span<const Index
       sides.push_back({low, high, t, triangles((c + 2) % 3, t)});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    return std::array{x.low, x.high, x.triangle} < std::array{y.low, y.high, y.triangle};
-  });
-  return sides;
+  return sorted_by(sides, [](const Side& side) { return key_of(side.low, side.high); });
 }
 
 /// Calls visit(first, last) for the sides of every edge.

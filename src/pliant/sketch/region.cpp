@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
 #include "pliant/geometry/adjacency.h"
 #include "pliant/geometry/edge_distance.h"
 #include "pliant/sketch/end_cut.h"
@@ -64,7 +65,7 @@ class RegionFinder {
     for (std::size_t i = 0; i < partitions.size(); ++i) {
       if (!cut_partition(partitions[i])) {
         return Status(ErrorCode::invalid_option,
-                      "partitions[" + std::to_string(i) + "] cuts nothing off the region; expected a line across it");
+                      message({"partitions[", i, "] cuts nothing off the region; expected a line across it"}));
       }
     }
     return checked_region();
@@ -116,9 +117,8 @@ class RegionFinder {
     assert(!torn_edge(shape_.triangles, region.of_point));
     const double reach = reach_of(region);
     if (reach < start_ + kLeastReach) {
-      return Status(ErrorCode::invalid_option, "reference leaves the shape after " +
-                                                   std::to_string(std::lround(100.0 * reach)) +
-                                                   " % of its length; expected a stroke along a limb");
+      return Status(ErrorCode::invalid_option, message({"reference leaves the shape after ", std::lround(100.0 * reach),
+                                                        " % of its length; expected a stroke along a limb"}));
     }
     return region;
   }

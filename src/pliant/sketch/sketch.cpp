@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
 #include "pliant/sketch/sketch_impl.h"
 
 namespace pliant {
@@ -25,7 +25,7 @@ SeenShape seen_through(const Camera& camera, const Shape& shape) {
 
 Status check_options(const Shape& shape, const SketchOptions& options) {
   for (std::size_t i = 0; i < options.partitions.size(); ++i) {
-    const std::string name = "partitions[" + std::to_string(i) + "]";
+    const std::string name = message({"partitions[", i, "]"});
     if (Status status = check_stroke(options.partitions[i], name.c_str()); !status.ok()) {
       return status;
     }
@@ -41,8 +41,8 @@ Status check_options(const Shape& shape, const SketchOptions& options) {
     return invalid("labels are given with partitions or mirror; expected one or the other");
   }
   if (static_cast<Index>(options.labels.size()) != shape.input_size()) {
-    return invalid("labels has length " + std::to_string(options.labels.size()) + "; expected " +
-                   std::to_string(shape.input_size()) + ", one a vertex");
+    return invalid(
+        message({"labels has length ", options.labels.size(), "; expected ", shape.input_size(), ", one a vertex"}));
   }
   return {};
 }
@@ -54,12 +54,12 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
   for (Index v = 0; v < shape.input_size(); ++v) {
     const Index point = shape.point_of_vertex()[v];
     const Index first = labels[shape.vertex_of_point()[point]];
-    const std::string name = "labels[" + std::to_string(v) + "] is " + std::to_string(labels[v]);
     if (labels[v] < 0 || labels[v] >= static_cast<Index>(used.size())) {
-      return invalid(name + "; expected 0, 1 or a rigid part from 2 on");
+      return invalid(message({"labels[", v, "] is ", labels[v], "; expected 0, 1 or a rigid part from 2 on"}));
     }
     if (labels[v] != first) {
-      return invalid(name + "; expected " + std::to_string(first) + " as that of the vertex at the same position");
+      return invalid(message(
+          {"labels[", v, "] is ", labels[v], "; expected ", first, " as that of the vertex at the same position"}));
     }
     of_point[point] = labels[v];
     used[labels[v]] = true;
@@ -68,14 +68,14 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
   const auto gap = std::find(used.begin() + 1, last, false);
   if (!used[kRegionLabel] || gap != last) {
     const auto missing = used[kRegionLabel] ? gap - used.begin() : kRegionLabel;
-    return invalid("labels has no vertex with label " + std::to_string(missing) +
-                   "; expected a region (1) and rigid parts numbered without gaps");
+    return invalid(message({"labels has no vertex with label ", missing,
+                            "; expected a region (1) and rigid parts numbered without gaps"}));
   }
   if (const auto torn = torn_edge(shape.triangles(), of_point)) {
     const auto [a, b] = *torn;
-    const auto name = [&](Index p) { return "labels[" + std::to_string(shape.vertex_of_point()[p]) + "]"; };
-    return invalid(name(a) + " is " + std::to_string(of_point[a]) + " beside " + name(b) + ", " +
-                   std::to_string(of_point[b]) + "; expected vertices of the region (1) between");
+    const auto& vertex = shape.vertex_of_point();
+    return invalid(message({"labels[", vertex[a], "] is ", of_point[a], " beside labels[", vertex[b], "], ",
+                            of_point[b], "; expected vertices of the region (1) between"}));
   }
   return of_point;
 }
@@ -311,9 +311,7 @@ namespace {
 Status check_scale(const Profile& factor) {
   for (const auto& [s, f] : factor.points()) {
     if (f > 0.0) continue;
-    char text[120];
-    std::snprintf(text, sizeof text, "scale is %.6g at s = %.6g; expected factors above 0", f, s);
-    return invalid(text);
+    return invalid(message({"scale is ", f, " at s = ", s, "; expected factors above 0"}));
   }
   return {};
 }
@@ -350,7 +348,7 @@ void Sketch::set_smooth(bool smooth) {
 
 Status Sketch::set_morph(double t) {
   if (!(t >= 0.0 && t <= 1.0)) {
-    return invalid("morph is " + std::to_string(t) + "; expected a number from 0 to 1");
+    return invalid(message({"morph is ", t, "; expected a number from 0 to 1"}));
   }
   impl_->morph = t;
   impl_->show();
@@ -369,8 +367,8 @@ SketchPose Sketch::pose() const { return impl_->whole_pose(); }
 
 Status Sketch::set_pose(const SketchPose& pose) {
   if (pose.turns.size() != impl_->base.turns.size()) {
-    return invalid("pose.turns has length " + std::to_string(pose.turns.size()) + "; expected " +
-                   std::to_string(impl_->base.turns.size()) + ", those of this reference");
+    return invalid(message({"pose.turns has length ", pose.turns.size(), "; expected ", impl_->base.turns.size(),
+                            ", those of this reference"}));
   }
   const bool finite =
       std::isfinite(pose.heading) && std::isfinite(pose.length) &&

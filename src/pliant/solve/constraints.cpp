@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "pliant/core/message.h"
+
 namespace pliant {
 namespace {
-
-std::string entry(const char* argument, std::size_t i) { return std::string(argument) + "[" + std::to_string(i) + "]"; }
 
 Status invalid_handle(std::string message) { return {ErrorCode::invalid_handle, std::move(message)}; }
 
@@ -25,12 +25,12 @@ Result<std::vector<Index>> Constraints::checked_points(std::span<const Index> ve
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Index vertex = vertices[i];
     if (vertex < 0 || vertex >= size) {
-      return invalid_handle(entry(argument, i) + " is " + std::to_string(vertex) + "; expected a vertex id from 0 to " +
-                            std::to_string(size - 1));
+      return invalid_handle(
+          message({argument, "[", i, "] is ", vertex, "; expected a vertex id from 0 to ", size - 1}));
     }
     if (seen_vertex[vertex]) {
-      return invalid_handle(entry(argument, i) + " is " + std::to_string(vertex) +
-                            ", which is listed before; expected each vertex once");
+      return invalid_handle(
+          message({argument, "[", i, "] is ", vertex, ", which is listed before; expected each vertex once"}));
     }
     seen_vertex[vertex] = true;
     const Index point = shape_->point_of_vertex()[vertex];
@@ -44,7 +44,7 @@ Result<std::vector<Index>> Constraints::checked_points(std::span<const Index> ve
 
 Result<std::size_t> Constraints::find(HandleId id) const {
   const auto found = std::find_if(handles_.begin(), handles_.end(), [&](const Handle& h) { return h.id == id; });
-  if (found == handles_.end()) return invalid_handle("there is no handle " + std::to_string(id));
+  if (found == handles_.end()) return invalid_handle(message({"there is no handle ", id}));
   return static_cast<std::size_t>(found - handles_.begin());
 }
 
@@ -84,8 +84,8 @@ Result<bool> Constraints::set_fixed(std::span<const Index> vertices) {
   }
   for (Index point : *points) {
     if (!moved[point]) continue;
-    return invalid_handle("fixed holds vertex " + std::to_string(shape_->vertex_of_point()[point]) +
-                          ", which belongs to a handle; expected a vertex to be fixed or moved");
+    return invalid_handle(message({"fixed holds vertex ", shape_->vertex_of_point()[point],
+                                   ", which belongs to a handle; expected a vertex to be fixed or moved"}));
   }
   std::sort(points->begin(), points->end());
   if (*points == fixed_points_) return false;
@@ -101,8 +101,8 @@ Result<HandleId> Constraints::add_handle(std::span<const Index> vertices) {
   const std::vector<bool> taken = held();
   for (Index point : *points) {
     if (!taken[point]) continue;
-    return invalid_handle("vertices holds vertex " + std::to_string(shape_->vertex_of_point()[point]) +
-                          ", which is fixed or belongs to another handle; expected a free vertex");
+    return invalid_handle(message({"vertices holds vertex ", shape_->vertex_of_point()[point],
+                                   ", which is fixed or belongs to another handle; expected a free vertex"}));
   }
   Handle handle;
   handle.id = next_id_++;
@@ -143,12 +143,12 @@ Status Constraints::set_targets(HandleId id, const Points& targets) {
   if (!at.ok()) return at.status();
   const Private& columns = private_[*at];
   if (targets.cols() != columns.given) {
-    return invalid_handle("targets has " + std::to_string(targets.cols()) + " points; expected " +
-                          std::to_string(columns.given) + ", one for each vertex of the handle");
+    return invalid_handle(message(
+        {"targets has ", targets.cols(), " points; expected ", columns.given, ", one for each vertex of the handle"}));
   }
   for (Index i = 0; i < targets.cols(); ++i) {
     if (targets.col(i).allFinite()) continue;
-    return invalid_handle(entry("targets", i) + " is not finite; expected finite coordinates");
+    return invalid_handle(message({"targets[", i, "] is not finite; expected finite coordinates"}));
   }
   handles_[*at].targets = targets(Eigen::all, columns.kept);
   handles_[*at].motion.reset();
@@ -196,7 +196,7 @@ Status Constraints::check(const State& state) const {
   double sum = 0.0;
   for (double size : sizes->data) {
     if (!(size >= 0.0) || size != std::floor(size)) {
-      return invalid_state("holds a size of " + std::to_string(size) + "; expected a count of vertices");
+      return invalid_state(message({"holds a size of ", size, "; expected a count of vertices"}));
     }
     sum += size;
   }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "pliant/core/message.h"
 #include "pliant/geometry/closest_rotation.h"
 #include "pliant/geometry/normals.h"
 #include "pliant/solve/local_global.h"
@@ -228,8 +229,8 @@ Status LocalGlobalDeformer::do_restore(const State& state) {
   const StateTable* result = state.find("result");
   const std::size_t expected = 3 * static_cast<std::size_t>(shape().input_size());
   if (result == nullptr || result->data.size() != expected) {
-    return {ErrorCode::invalid_option, "the state has no result of " + std::to_string(expected / 3) +
-                                           " points; expected one of this method on this shape"};
+    return {ErrorCode::invalid_option, message({"the state has no result of ", expected / 3,
+                                                " points; expected one of this method on this shape"})};
   }
   if (!std::all_of(result->data.begin(), result->data.end(), [](double v) { return std::isfinite(v); })) {
     return {ErrorCode::invalid_option, "result of the state holds a number that is not finite"};

@@ -1,14 +1,14 @@
 #include "pliant/deformers/arap/options.h"
 
 #include <cmath>
-#include <string>
+
+#include "pliant/core/message.h"
 
 namespace pliant {
 
 Status ArapOptions::validate() const {
   const auto invalid = [](const char* name, double value, const char* expected) {
-    return Status(ErrorCode::invalid_option,
-                  std::string(name) + " is " + std::to_string(value) + "; expected " + expected);
+    return Status(ErrorCode::invalid_option, message({name, " is ", value, "; expected ", expected}));
   };
   if (constraint_weight && !(std::isfinite(*constraint_weight) && *constraint_weight > 0.0)) {
     return invalid("constraintWeight", *constraint_weight, "a finite number above 0");

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "pliant/core/message.h"
 #include "pliant/deformers/edge_material/field.h"
 #include "pliant/deformers/edge_material/model.h"
 
@@ -150,8 +151,8 @@ Status EdgeMaterial::do_restore(const State& state) {
   const double count = static_cast<double>(impl_->model.elements().size());
   for (double edge : folded) {
     if (edge >= 0.0 && edge < count) continue;
-    return {ErrorCode::invalid_option, "folded of the state holds edge " + std::to_string(edge) + "; expected 0 to " +
-                                           std::to_string(count - 1.0)};
+    return {ErrorCode::invalid_option,
+            message({"folded of the state holds edge ", edge, "; expected 0 to ", count - 1.0})};
   }
   if (Status s = LocalGlobalDeformer::do_restore(state); !s.ok()) return s;
   for (std::size_t k = 0; k < folded.size(); ++k) {

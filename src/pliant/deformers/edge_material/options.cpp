@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "pliant/core/message.h"
+
 namespace pliant {
 namespace {
 
@@ -12,17 +14,17 @@ Status invalid(std::string message) { return {ErrorCode::invalid_option, std::mo
 
 Status check_range(const char* name, double value, double most) {
   if (std::isfinite(value) && value >= 0.0 && value <= most) return {};
-  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected " +
-                 (most == 1.0 ? "0 to 1" : "a finite number of at least 0"));
+  return invalid(
+      message({name, " is ", value, "; expected ", most == 1.0 ? "0 to 1" : "a finite number of at least 0"}));
 }
 
 Status check_strokes(const std::vector<Points>& strokes) {
   if (strokes.empty()) return invalid("field.strokes is empty; expected at least one stroke");
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const std::string name = "field.strokes[" + std::to_string(i) + "]";
+    const std::string name = message({"field.strokes[", i, "]"});
     const Points& stroke = strokes[i];
     if (stroke.cols() < 2) {
-      return invalid(name + " has " + std::to_string(stroke.cols()) + " points; expected at least 2");
+      return invalid(message({name, " has ", stroke.cols(), " points; expected at least 2"}));
     }
     if (!stroke.allFinite()) return invalid(name + " holds a number that is not finite");
     if ((stroke.colwise() - stroke.col(0)).isZero(0.0)) {
@@ -42,8 +44,7 @@ Status check_field(const DirectionField& field, const Shape& shape) {
   if (field.sources.empty()) return invalid("field.sources is empty; expected vertex ids");
   for (Index vertex : field.sources) {
     if (vertex >= 0 && vertex < shape.input_size()) continue;
-    return invalid("field.sources holds vertex " + std::to_string(vertex) + "; expected 0 to " +
-                   std::to_string(shape.input_size() - 1));
+    return invalid(message({"field.sources holds vertex ", vertex, "; expected 0 to ", shape.input_size() - 1}));
   }
   return {};
 }
@@ -62,8 +63,8 @@ Status EdgeMaterialOptions::validate(const Shape& shape) const {
   if (Status s = check_range("lambda", lambda.value_or(0.0), kAny); !s.ok()) return s;
   if (Status s = check_range("bend", bend, kAny); !s.ok()) return s;
   if (bend == 0.0 && lambda.value_or(stretch) == 0.0) {
-    return invalid(std::string("options has bend and ") + (lambda ? "lambda" : "stretch") +
-                   " of 0; expected one of them above 0");
+    return invalid(
+        message({"options has bend and ", lambda ? "lambda" : "stretch", " of 0; expected one of them above 0"}));
   }
   if (Status s = check_range("pStretch", p_stretch, 1.0); !s.ok()) return s;
   if (Status s = check_range("pBend", p_bend, 1.0); !s.ok()) return s;

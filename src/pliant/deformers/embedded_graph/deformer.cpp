@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "pliant/core/message.h"
 #include "pliant/deformers/embedded_graph/graph.h"
 #include "pliant/deformers/embedded_graph/refine.h"
 #include "pliant/deformers/embedded_graph/solver.h"
@@ -204,8 +205,7 @@ Result<Points> EmbeddedGraph::transform_points(const Points& points) const {
 
 Result<Index> EmbeddedGraph::refine(Index max_nodes) {
   if (max_nodes < 1) {
-    return Status(ErrorCode::invalid_option,
-                  "refine: maxNodes is " + std::to_string(max_nodes) + "; expected at least 1");
+    return Status(ErrorCode::invalid_option, message({"refine: maxNodes is ", max_nodes, "; expected at least 1"}));
   }
   if (!up_to_date()) return Index{0};  // nothing solved: no terms to go by
   const Points fresh = embedded::nodes_to_add(shape(), impl_->graph, impl_->solver, max_nodes);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "pliant/core/message.h"
+
 namespace pliant {
 namespace {
 
@@ -12,14 +14,13 @@ Status invalid(std::string message) { return {ErrorCode::invalid_option, std::mo
 
 Status check_weight(const char* name, double value, bool zero_allowed) {
   if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return {};
-  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected a finite number " +
-                 (zero_allowed ? "of at least 0" : "above 0"));
+  return invalid(
+      message({name, " is ", value, "; expected a finite number ", zero_allowed ? "of at least 0" : "above 0"}));
 }
 
 Status check_count(const char* name, Index value, Index most, const char* of_what) {
   if (value >= 1 && value <= most) return {};
-  return invalid(std::string(name) + " is " + std::to_string(value) + "; expected 1 to " + std::to_string(most) +
-                 ", the number of " + of_what);
+  return invalid(message({name, " is ", value, "; expected 1 to ", most, ", the number of ", of_what}));
 }
 
 Status check_cut(const Cut& cut, const Shape& shape) {
@@ -29,13 +30,12 @@ Status check_cut(const Cut& cut, const Shape& shape) {
     if (list->empty()) return invalid("cuts holds an empty selection; expected two sets of vertices");
     for (Index vertex : *list) {
       if (vertex < 0 || vertex >= shape.input_size()) {
-        return invalid("cuts holds vertex " + std::to_string(vertex) + "; expected 0 to " +
-                       std::to_string(shape.input_size() - 1));
+        return invalid(message({"cuts holds vertex ", vertex, "; expected 0 to ", shape.input_size() - 1}));
       }
       unsigned char& at = side[shape.point_of_vertex()[vertex]];
       if (at != 0 && at != mark) {
-        return invalid("cuts holds vertex " + std::to_string(vertex) +
-                       " on both sides of a pair; expected disjoint selections");
+        return invalid(
+            message({"cuts holds vertex ", vertex, " on both sides of a pair; expected disjoint selections"}));
       }
       at = mark;
     }
