@@ -29,7 +29,7 @@ function otherValues({ type, default: usual, min, max, choices, step }: Option):
   if (type === "boolean") return [!usual];
   if (type === "choice") return choices!.filter((name) => name !== usual);
   if (type === "integer") return [usual === min ? max! : min!];
-  if (type === "number") return [min!, max!, (usual as number | null ?? min!) + step!].filter((value) => value !== usual);
+  if (type === "number") return [min!, max!, min! + step!].filter((value) => value !== usual);
   if (type === "vector") return [[0, 0.25, -2]];
   return compound[type]!;
 }
