@@ -8,6 +8,7 @@ import { bestMotion, type Motion } from "./motion.ts";
 import { Present, type Moment, type PresentEvents } from "./present.ts";
 import { newSketch, posed, seenAgain, type Pixel, type PoseChange, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
 import { freshId, heldUnmoved, unmovedIn, withoutHeld } from "./unmoved.ts";
+import { connect } from "../solver/pliant.ts";
 
 /** `change` also tells of the history; after a `problem` the session stands as before. */
 export type SessionEvents = Omit<PresentEvents, "settled">;
@@ -20,6 +21,7 @@ export class Session {
 
   static async start(shape: ShapeData, events: SessionEvents): Promise<Session> {
     let session: Session | undefined;
+    await connect(); // methods are known from here on
     const doc = startingDoc(shape);
     const present = await Present.start(doc, { ...events, settled: () => void session?.rest() });
     session = new Session(present, new History<Moment>({ doc, edit: undefined }), events);
