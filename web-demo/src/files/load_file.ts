@@ -1,14 +1,12 @@
 // The visitor's own file as a shape: read by the library, in its worker. Whatever goes wrong is said in words.
 import type { ReadOptions, ShapeFile } from "pliant/worker";
-import type { ShapeData } from "../shapes/shape.ts";
+import type { LoadedShape, ShapeData } from "../shapes/shape.ts";
 import { connect } from "../solver/pliant.ts";
 import { asCanvas, readPicture } from "./picture.ts";
 import { turn } from "./turn.ts";
 
 const shapes = ["obj", "ply", "off", "stl", "glb", "xyz"];
 const pictures = ["png", "jpg", "jpeg", "webp"];
-
-export type Loaded = Pick<ShapeData, "positions" | "triangles" | "dimension"> & Partial<ShapeData>;
 
 /** Errors: a sentence for the visitor; what a signal stopped is an error without one. */
 export async function loadFile(file: File, options: ReadOptions): Promise<ShapeData> {
@@ -26,7 +24,7 @@ export async function loadFile(file: File, options: ReadOptions): Promise<ShapeD
   }
 }
 
-async function asShape(file: ShapeFile): Promise<Loaded> {
+async function asShape(file: ShapeFile): Promise<LoadedShape> {
   const picture = file.texture && (await createImageBitmap(file.texture));
   await turn();
   const positions = new Float32Array(file.positions);

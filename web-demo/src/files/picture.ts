@@ -1,10 +1,10 @@
 // A picture as a shape in the plane: a lattice over it, without the cells that show nothing.
-import type { Loaded } from "./load_file.ts";
+import type { LoadedShape } from "../shapes/shape.ts";
 
 const cells = 96; // along the longer side
 
 /** Errors: not a picture; nothing to see. */
-export async function readPicture(file: Blob): Promise<Loaded> {
+export async function readPicture(file: Blob): Promise<LoadedShape> {
   const image = await createImageBitmap(file).catch(() => {
     throw new Error("it is not a picture");
   });

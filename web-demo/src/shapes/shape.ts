@@ -44,6 +44,9 @@ export interface StartPose {
 
 type Path = readonly (readonly [number, number, number])[];
 
+/** What a file or picture holds: all that a visitor adds comes later. */
+export type LoadedShape = Pick<ShapeData, "positions" | "triangles" | "dimension"> & Partial<ShapeData>;
+
 export const vertexCount = (shape: ShapeData): number => shape.positions.length / 3;
 
 export interface Box {
