@@ -52,6 +52,73 @@ describe.each(ways)("%s", (how) => {
   });
 });
 
+test("a stroke from the hand to the shoulder holds the body; the flip holds the hand", async () => {
+  await visit("served");
+  const before = await rest();
+  await stroke(arm);
+  const { labels } = await limb();
+  await demo.press("Control+z");
+  await stroke(arm.toReversed());
+  const inwards = await limb();
+  const alike = labels.filter((label, v) => (label > 0) === (inwards.labels[v]! > 0)).length / labels.length;
+  expect(alike).toBeGreaterThan(0.99);
+  await stroke(up);
+  const bent = await demo.positions();
+  const still = labelled(inwards.labels, (label) => label === 0);
+  expect(farthest(before, bent, still)).toBeLessThan(1e-6 * (await diagonal()));
+  expect(farthest(before, bent)).toBeGreaterThan(0.05 * (await diagonal()));
+  expect(farthest((await replayed()).positions, bent)).toBeLessThan(1e-6 * (await diagonal()));
+
+  await demo.page.locator("#limb-flip").click();
+  await demo.idle();
+  const flipped = await demo.positions();
+  expect(farthest(before, flipped, still)).toBeGreaterThan(0.05 * (await diagonal()));
+  const hand = labelled((await limb()).labels, (label) => label === 0);
+  expect(hand.length).toBeGreaterThan(20);
+  expect(farthest(before, flipped, hand)).toBeLessThan(1e-6 * (await diagonal()));
+  expect(farthest((await replayed()).positions, flipped)).toBeLessThan(1e-6 * (await diagonal()));
+  await demo.page.locator("#limb-flip").click();
+  await demo.idle();
+  expect(farthest(bent, await demo.positions())).toBeLessThan(0.02 * (await diagonal()));
+});
+
+test("a hand dragged off the shape pulls the arm it belongs to; off no limb there is a message", async () => {
+  await visit("served");
+  const before = await rest();
+  const [hand] = await onPage([arm.at(-1)!]);
+  await demo.drag(hand!, { x: hand!.x - 20, y: hand!.y - 60 }, { x: hand!.x - 30, y: hand!.y - 160 });
+  const { labels, curve } = await limb();
+  const arms = labelled(labels, (label) => label > 0);
+  expect(arms.length).toBeGreaterThan(200);
+  expect(arms.every((v) => before[3 * v]! < -0.1)).toBe(true);
+  const now = await demo.positions();
+  expect(farthest(before, now, arms)).toBeGreaterThan(0.05 * (await diagonal()));
+  expect(curve.at(-1)!.y).toBeLessThan(hand!.y - 40);
+  expect(farthest((await replayed()).positions, now)).toBeLessThan(1e-6 * (await diagonal()));
+  await demo.shot("pulled");
+  await demo.press("Control+z"); // one stroke, one step back
+  expect(await ask((hook) => hook.limb())).toBeUndefined();
+});
+
+test("a stroke begun while the limb is still being chosen, or posed, is on it", async () => {
+  await visit("served");
+  const { mouse } = demo.page;
+  for (const points of [arm, up, down]) {
+    const [first, ...more] = await onPage(points);
+    await mouse.move(first!.x, first!.y);
+    await mouse.down();
+    for (const { x, y } of more) await mouse.move(x, y, { steps: 4 });
+    await mouse.up();
+  }
+  await demo.idle();
+  const { steps } = (await ask((hook) => hook.script())) as { steps: Record<string, unknown>[] };
+  expect(steps).toHaveLength(1);
+  expect(steps[0]).toHaveProperty("bend");
+  const { curve } = await limb();
+  const [goal] = await onPage([down.at(-1)!]);
+  expect(Math.hypot(curve.at(-1)!.x - goal!.x, curve.at(-1)!.y - goal!.y)).toBeLessThan(60);
+});
+
 test("the preview follows the hand before it lets go, and ends where the stroke ends", async () => {
   await visit("served");
   await stroke(arm);

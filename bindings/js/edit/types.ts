@@ -184,6 +184,8 @@ export interface SketchView {
   reference: Float64Array;
   target: Float64Array;
   refinement: Refinement | undefined;
+  /** The end of the reference that is held. */
+  held: "start" | "end";
 }
 
 export interface EditResult {

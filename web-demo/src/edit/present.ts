@@ -15,7 +15,7 @@ import {
 import { LooseParts } from "./loose_parts.ts";
 import type { Motion } from "./motion.ts";
 import { RestDetector } from "./rest_detector.ts";
-import { isPosed, posed, type PoseChange, type SketchDoc } from "./sketch_doc.ts";
+import { fromHeld, isPosed, posed, type Pixel, type PoseChange, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
 
 /** A moment to go back to. The edit's is absent at rest and until it has told it. */
 export interface Moment {
@@ -120,7 +120,9 @@ export class Present {
     const report = await this.client.open(doc.opened);
     if (doc.shape !== old?.shape) this.takeShape(doc, report);
     this.doc = doc;
-    this.step = this.state = this.sketched = this.previewed = undefined;
+    this.step = this.state = this.previewed = undefined;
+    // Until its next pose is computed the limb stays as it is seen: strokes begun meanwhile are on it.
+    if (!doc.sketch || doc.sketch.reference !== old?.sketch?.reference) this.sketched = undefined;
     this.restDetector.reset();
     this.shown = doc.shape;
     if (!doc.handles.some((h) => h.id === this.selected && !h.held)) this.selected = doc.handles.find((h) => !h.held)?.id;
@@ -128,6 +130,8 @@ export class Present {
     else this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), {
       fromRest: !edit && !doc.sketch && doc.done.length === 0, whole: doc.sketch !== undefined,
     }));
+    const { sketch } = this.doc;
+    if (sketch?.hold === "larger" && this.sketched) this.doc = { ...this.doc, sketch: fromHeld(sketch, this.sketched.held) };
     this.events.change();
     this.events.frame();
     if (!doc.sketch) this.client.wake();
@@ -162,6 +166,11 @@ export class Present {
     if (this.previewed) return liveDocument({ ...this.doc, sketch: this.previewed });
     this.doc = withChanges(this.doc);
     return liveDocument(this.doc);
+  }
+
+  /** The limb of a shape under a pixel, from the body to there. */
+  limbStroke({ shape }: Doc, camera: SketchCamera, pixel: Pixel): Promise<Pixel[]> {
+    return this.client.limbStroke(shape, camera, pixel);
   }
 
   private findRiders(): void {

@@ -92,6 +92,16 @@ export class Session {
     });
   }
 
+  /** Chooses the limb under a pixel and poses it in one go: for a stroke that leaves the shape at once. */
+  pullLimb(camera: SketchCamera, pixel: Pixel, mirror: SketchDoc["mirror"], targetOf: (reference: readonly Pixel[]) => Pixel[]): Promise<boolean> {
+    return this.move(async () => {
+      const doc = await this.present.finished();
+      const reference = await this.present.limbStroke(doc, camera, pixel);
+      const sketch = newSketch(camera, reference, this.present.doc.sketch);
+      return { ...doc, sketch: { ...sketch, mirror, hold: "start", target: targetOf(reference) } };
+    });
+  }
+
   /** The limb seen from elsewhere, by the curve it lies on now: the region stays. */
   lookAgain(camera: SketchCamera, reference: readonly Pixel[], label: string): Promise<boolean> {
     return this.move(async () => {

@@ -25,7 +25,9 @@ export type Knots = readonly number[];
 
 export interface SketchDoc {
   readonly camera: SketchCamera;
+  /** Once it is chosen: from the held end on, and `hold` is "start". */
   readonly reference: readonly Pixel[];
+  readonly hold: "larger" | "start";
   /** The region is not chosen by the reference: it was by another stroke, or is that of the step before (`labels`). */
   readonly region?: { readonly camera: SketchCamera; readonly reference: readonly Pixel[] } | "previous" | undefined;
   readonly labels?: ArrayLike<number> | undefined;
@@ -55,18 +57,35 @@ export const restKnots: Readonly<Record<Control, Knots>> = {
 
 export function newSketch(camera: SketchCamera, reference: readonly Pixel[], like?: SketchDoc): SketchDoc {
   return {
-    camera, reference, partitions: [], mirror: like?.mirror, target: undefined, unfinished: false, twist: 0, knots: restKnots,
+    camera, reference, hold: "larger", partitions: [], mirror: like?.mirror, target: undefined, unfinished: false, twist: 0, knots: restKnots,
     smooth: like?.smooth ?? true, refine: false, morph: 1, finish: like?.finish ?? "",
   };
 }
 
 /** A limb at rest seen through another camera, by the curve it lies on; `labels`: its region. */
 export function seenAgain(old: SketchDoc, labels: ArrayLike<number>, camera: SketchCamera, reference: readonly Pixel[]): SketchDoc {
-  const fresh = newSketch(camera, reference, old);
+  const fresh: SketchDoc = { ...newSketch(camera, reference, old), hold: "start" };
   if (old.mirror || (isPosed(old) && old.refine)) return fresh; // the region is chosen anew
   if (isPosed(old)) return { ...fresh, region: "previous", labels };
   const region = old.region ?? { camera: old.camera, reference: old.reference };
   return { ...fresh, region, labels: old.labels, partitions: old.partitions };
+}
+
+const reversed = <T>(line: readonly T[]): T[] => line.toReversed();
+
+/** The limb as it was chosen, its stroke from the end that is held. */
+export const fromHeld = (sketch: SketchDoc, held: "start" | "end"): SketchDoc =>
+  ({ ...sketch, hold: "start", reference: held === "end" ? reversed(sketch.reference) : sketch.reference });
+
+/** The other end held: the same shape but for where it stands. The region is chosen anew, or by the other stroke reversed. */
+export function flipped({ reference, target, region, knots }: SketchDoc): Partial<SketchDoc> {
+  const across = (control: Control, value: (there: number) => number) => reversed(knots[control]).map(value);
+  const turned = knots.twistSpeed.at(-1)!;
+  return {
+    hold: "start", reference: reversed(reference), target: target && reversed(target), labels: undefined,
+    region: typeof region === "object" ? { ...region, reference: reversed(region.reference) } : undefined,
+    knots: { scale: across("scale", (x) => x), turning: across("turning", (x) => x), twistSpeed: across("twistSpeed", (x) => turned - x) },
+  };
 }
 
 export const sameKnots = (a: Knots, b: Knots): boolean => a.every((x, i) => x === b[i]);
@@ -124,9 +143,10 @@ function profilesOf(sketch: SketchDoc) {
   };
 }
 
-function drawingOf({ camera, reference, region, partitions, mirror, smooth }: SketchDoc) {
+function drawingOf({ camera, reference, hold, region, partitions, mirror, smooth }: SketchDoc) {
   return {
     method: "sketch" as const, camera, reference,
+    ...(hold === "start" ? { hold } : {}),
     ...(region ? { region } : {}),
     ...(partitions.length > 0 ? { partitions } : {}),
     ...(mirror ? { mirror } : {}),

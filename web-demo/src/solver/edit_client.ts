@@ -1,5 +1,6 @@
 // The one place that talks to the living edit in its worker. Calls are made one after another; between them frames run
 // until the shape is at rest, always towards the newest document. A frame is one message each way.
+import type { Pixel, SketchCamera } from "../edit/sketch_doc.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import {
   connect, type EditDocument, type EditMoment, type EditRun, type ShapeReport, type SketchView, type State,
@@ -111,6 +112,18 @@ export class EditClient {
       const { edit } = this;
       const [, , exact] = await Promise.all([edit.apply(document), edit.run(), edit.positions(new Float64Array(3 * vertices))]);
       return exact;
+    });
+  }
+
+  /** The limb of a mesh under a pixel of the picture, from the body to there. */
+  limbStroke({ exact, positions, triangles }: ShapeData, camera: SketchCamera, pixel: Pixel): Promise<Pixel[]> {
+    return this.exclusive(async () => {
+      const shape = await this.pliant.shape({ positions: exact ?? positions, triangles });
+      try {
+        return await this.pliant.limbStroke(shape, { camera, pixel: [...pixel] });
+      } finally {
+        await shape.dispose();
+      }
     });
   }
 

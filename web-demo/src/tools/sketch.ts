@@ -1,6 +1,6 @@
 // Sketch: a stroke along a limb chooses it, the next ones say where it goes, how it turns, how thick it is.
 import { scaledFrom, type Pixel, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
-import { distance, fitted, lengthOf } from "./stroke.ts";
+import { distance, fitted, lengthOf, pulled } from "./stroke.ts";
 import type { Pointer, Stage, Tool } from "./tool.ts";
 
 /** What a stroke on a chosen limb does. */
@@ -14,6 +14,10 @@ const reach = 26;
 const shortest = 12;
 const degreesPerPixel = 0.75;
 const pixelsPerDoubling = 110;
+/** A stroke leaves the shape at once when less than a fifth of the places beyond a quarter of its length lie on it. */
+const leavingShare = 0.25;
+const stayingShare = 0.2;
+const probes = 16;
 
 export class SketchTool implements Tool {
   readonly id = "sketch";
@@ -29,6 +33,8 @@ export class SketchTool implements Tool {
   private ink: Pointer[] = [];
   private ready: Promise<boolean> = Promise.resolve(true);
   private isReady = true;
+  /** Whether a limb is still being chosen: a stroke begun meanwhile says where it goes. */
+  private choosing = false;
   private strokes = 0;
 
   constructor(private readonly stage: Stage) {}
@@ -57,17 +63,45 @@ export class SketchTool implements Tool {
   }
 
   up(): void {
-    const { session, viewport } = this.stage;
+    const { session } = this.stage;
     const gesture = this.gesture;
     const change = this.change(false);
     const label = `stroke ${this.strokes}`;
     this.end();
     if (gesture?.kind === "reference") {
-      if (lengthOf(this.ink) >= shortest) void session.chooseLimb(viewport.sketchCamera(), this.pixels(), this.mirror);
+      if (lengthOf(this.ink) >= shortest) this.choose();
       return;
     }
     if (change) void this.ready.then((went) => went && session.pose(change, label));
     else session.showAgain();
+  }
+
+  /** What a stroke runs along; or what it began on, pulled where it ends. */
+  private choose(): void {
+    const { session, viewport } = this.stage;
+    const camera = viewport.sketchCamera();
+    const pixels = this.pixels();
+    const [from, to] = [pixels[0]!, pixels.at(-1)!];
+    const target = (limb: readonly Pixel[]) => {
+      const moved = pulled(limb, [to[0] - from[0], to[1] - from[1]]);
+      return this.keepsLength ? fitted(moved, limb) : moved;
+    };
+    this.choosing = true;
+    this.isReady = false;
+    const done = this.leavesAtOnce() ? session.pullLimb(camera, from, this.mirror, target) : session.chooseLimb(camera, pixels, this.mirror);
+    const ready = (this.ready = done.then((went) => {
+      if (this.ready === ready) this.choosing = !(this.isReady = true);
+      return went;
+    }));
+  }
+
+  private leavesAtOnce(): boolean {
+    const { ink } = this;
+    if (!this.stage.pick(ink[0]!.x, ink[0]!.y)) return false;
+    const whole = lengthOf(ink);
+    const beyond = ink.filter((_, i) => lengthOf(ink.slice(0, i + 1)) > leavingShare * whole);
+    const probed = beyond.filter((_, i) => i % Math.ceil(beyond.length / probes) === 0);
+    return probed.filter(({ x, y }) => this.stage.pick(x, y)).length < stayingShare * probed.length;
   }
 
   cancel(): void {
@@ -86,6 +120,7 @@ export class SketchTool implements Tool {
 
   private gestureFor(at: Pointer): Gesture | undefined {
     const { doc: { sketch }, sketched: frame } = this.stage.present;
+    if (this.choosing) return this.mode === "bend" ? { kind: "bend" } : undefined;
     const hit = this.near(at);
     if (!sketch || !frame) return hit ? { kind: "reference" } : undefined;
     if (this.mode === "cut") return { kind: "cut" };
@@ -121,7 +156,7 @@ export class SketchTool implements Tool {
    */
   private followCamera(): void {
     const { session, present: { doc: { sketch }, sketched }, viewport } = this.stage;
-    if (!sketch || this.gesture!.kind === "reference" || !sketched) return;
+    if (this.choosing || !sketch || this.gesture!.kind === "reference" || !sketched) return;
     const camera = viewport.sketchCamera();
     if (JSON.stringify(camera) === JSON.stringify(sketch.camera)) return;
     this.isReady = false;
@@ -137,7 +172,7 @@ export class SketchTool implements Tool {
   /** What it finds in the sketch it takes from there when its turn comes: the limb may be seen from elsewhere by then. */
   private change(drawing: boolean): PoseChange | undefined {
     const { gesture } = this;
-    if (!gesture || gesture.kind === "reference" || !this.stage.present.doc.sketch || lengthOf(this.ink) < shortest) return undefined;
+    if (!gesture || gesture.kind === "reference" || !(this.choosing || this.stage.present.doc.sketch) || lengthOf(this.ink) < shortest) return undefined;
     const [from, to] = [this.ink[0]!, this.ink.at(-1)!];
     const along = ([x, y]: Pixel) => (to.x - from.x) * x + (to.y - from.y) * y;
     switch (gesture.kind) {

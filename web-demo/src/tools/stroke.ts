@@ -28,6 +28,13 @@ function cutAt(line: readonly Pixel[], length: number): [Pixel[], Pixel[]] {
   return [[...line], []];
 }
 
+/** A limb whose end is pulled somewhere: the more, the nearer to the end; where it is held it keeps its direction. */
+export const pulled = (limb: readonly Pixel[], [dx, dy]: Pixel): Pixel[] =>
+  limb.map(([x, y], i): Pixel => {
+    const share = (i / (limb.length - 1)) ** 2;
+    return [x + share * dx, y + share * dy];
+  });
+
 /** The direction in which the last (or first) pixels of a line run. */
 function heading(line: readonly Pixel[], atEnd: boolean): number {
   const way = atEnd ? line.toReversed() : line;

@@ -1,6 +1,6 @@
 // What can be set on the limb under strokes: what a stroke does, morph, smoothing, the spline controls.
 import type { Session } from "../edit/session.ts";
-import { controls, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
+import { controls, flipped, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
 import { methods } from "../methods.ts";
 import { boundingBox } from "../shapes/shape.ts";
 import { strokeModes, type SketchTool, type StrokeMode } from "../tools/sketch.ts";
@@ -32,6 +32,7 @@ export class LimbPanel {
     this.modes = strokeModes.map((mode) => this.modeButton(mode));
     byId("stroke-modes").append(...this.modes);
     byId("limb-done").addEventListener("click", () => void session.leaveLimb());
+    byId("limb-flip").addEventListener("click", () => this.pose(flipped));
     this.morph.addEventListener("input", () => {
       this.showMorph(Number(this.morph.value));
       session.present.preview({ morph: Number(this.morph.value) / 100 });
