@@ -31,20 +31,25 @@ export interface RawScratch extends RawObject {
   bytes(length: number): Uint8Array;
 }
 
-export interface RawShapeReport {
+/** What was found. Edges and components are counted after vertices at equal positions became one. */
+export interface ShapeReport {
   vertices: number;
   triangles: number;
   components: number;
+  /** Edges with one triangle. */
   boundaryEdges: number;
+  /** Edges with more than two triangles. */
   nonManifoldEdges: number;
+  /** Triangles with fewer than three distinct points, or no area. */
   degenerateTriangles: number;
+  /** Vertices that share the position of an earlier one. */
   weldedVertices: number;
 }
 
 export interface RawShape extends RawObject {
   /** doubles: dimension * n coordinates; integers: 3 * m vertex ids (may be empty). */
   build(scratch: RawScratch, dimension: number): RawStatus;
-  report(): RawShapeReport;
+  report(): ShapeReport;
   diagonal(): number;
 }
 

@@ -3,7 +3,7 @@
 import { coordinates, fields, integer, list, Place } from "../boundary/check.js";
 import { build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
-import type { RawShape } from "../boundary/raw.js";
+import type { RawShape, ShapeReport } from "../boundary/raw.js";
 import { type Extent, readSelection, selectedIds, type Selection } from "./selection.js";
 
 /** A mesh, a polygon soup, points, or a picture in the plane. */
@@ -16,20 +16,7 @@ export interface ShapeInput {
   dimension?: 2 | 3;
 }
 
-/** What was found. Edges and components are counted after vertices at equal positions became one. */
-export interface ShapeReport {
-  vertices: number;
-  triangles: number;
-  components: number;
-  /** Edges with one triangle. */
-  boundaryEdges: number;
-  /** Edges with more than two triangles. */
-  nonManifoldEdges: number;
-  /** Triangles with fewer than three distinct points, or no area. */
-  degenerateTriangles: number;
-  /** Vertices that share the position of an earlier one. */
-  weldedVertices: number;
-}
+export type { ShapeReport };
 
 /** What the rest of the package knows of a shape. */
 export interface ShapeInside {
