@@ -59,20 +59,39 @@ Method edge_material(const char* name, const EdgeMaterialOptions& options) {
   return method;
 }
 
+Method recorded(Method method, const Eigen::Vector3d& mean, const Eigen::Vector3d& vertex) {
+  method.recorded = {mean, vertex};
+  return method;
+}
+
 }  // namespace
 
 std::vector<Method> methods() {
   return {
-      embedded_graph("embedded-graph", {}),
-      embedded_graph("embedded-graph, gauss-newton", {.solver = EmbeddedGraphSolver::gauss_newton}),
-      arap("arap", {}),
-      arap("arap, rims", {.energy = ArapEnergy::spokes_and_rims}),
-      arap("arap, soft", {.constraint_weight = 100.0}),
-      arap("arap, smooth", {.smoothness = 0.1}),
+      recorded(embedded_graph("embedded-graph", {}), {-0.0634170083706872, 0.046933374322741, 0.0368488480469284},
+               {-0.571522656523019, 0.340954191208747, 0.669026764079903}),
+      recorded(embedded_graph("embedded-graph, gauss-newton", {.solver = EmbeddedGraphSolver::gauss_newton}),
+               {-0.0634090965690702, 0.0469433166846666, 0.0368551560131308},
+               {-0.571492835193796, 0.34097085615089, 0.669027950207101}),
+      recorded(arap("arap", {}), {-0.0775710606584072, 0.00641576886737877, 0.0461871247264094},
+               {-0.620296450486798, 0.217760779697827, 0.730616698831364}),
+      recorded(arap("arap, rims", {.energy = ArapEnergy::spokes_and_rims}),
+               {-0.0758649168489664, 0.0105050895735654, 0.0430469965260838},
+               {-0.619971265166443, 0.226352961653798, 0.738868778105172}),
+      recorded(arap("arap, soft", {.constraint_weight = 100.0}),
+               {-0.0754760331272869, 0.010772170038707, 0.0428678913935817},
+               {-0.625749314677271, 0.243157810504613, 0.682587308396889}),
+      recorded(arap("arap, smooth", {.smoothness = 0.1}), {-0.0835857216407971, 0.0249596122150149, 0.0720448911794829},
+               {-0.610521763946182, 0.233676160879028, 0.775403292379724}),
       // The paper's lambda: the diagonal in `stretch` is that of the bounding box, which turning
       // the scene changes.
-      edge_material("edge-material", {.lambda = 3e-3}),
-      edge_material("edge-material, field", {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
+      recorded(edge_material("edge-material", {.lambda = 3e-3}),
+               {-0.0830478129167169, 0.033146662270167, 0.132069198797718},
+               {-0.548267862240704, 0.259385617800194, 0.993833971554214}),
+      recorded(edge_material("edge-material, field",
+                             {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
+               {-0.0806609261996718, 0.0257392411463397, 0.116561130227058},
+               {-0.560329254375608, 0.259191211154912, 0.935393981232096}),
   };
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct Method {
   bool exact = false;
   /// Other options, each set on a living deformer.
   std::vector<std::function<void(Deformer&)>> live_options = {};
+  /// Mean and one vertex of law 8's edit, as a native build found them.
+  struct Recorded {
+    Eigen::Vector3d mean, vertex;
+  };
+  std::optional<Recorded> recorded = {};
 };
 
 std::vector<Method> methods();
