@@ -87,8 +87,9 @@ class Sequence {
       REQUIRE(fresh->set_targets(*id, handle.targets).ok());
     }
     test::settle(*fresh, 1000, 1e-13);
-    // Exact targets that contradict each other have many minima: enough that nothing breaks.
-    if (method_.exact && std::max(gap(*fresh), gap(*deformer_)) > 1e-5) return 0.0;
+    // Exact targets that contradict each other have many minima, and where they nearly do the graph is strained so much
+    // that what is left of a gap shows in the result many times over: enough that nothing breaks.
+    if (method_.exact && std::max(gap(*fresh), gap(*deformer_)) > 1e-6) return 0.0;
     return test::distance(deformer_->positions(), fresh->positions()) / shape_->diagonal();
   }
 
