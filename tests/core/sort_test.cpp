@@ -31,6 +31,9 @@ TEST_CASE("order_by sorts as std::stable_sort does") {
   for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = static_cast<Index>(i);
   std::stable_sort(expected.begin(), expected.end(), [&](Index a, Index b) { return values[a] < values[b]; });
   CHECK(order_by(static_cast<Index>(values.size()), [&](Index i) { return key_of(values[i]); }) == expected);
+  for (double& value : values) value = random.number();
+  std::stable_sort(expected.begin(), expected.end(), [&](Index a, Index b) { return values[a] < values[b]; });
+  CHECK(order_by(static_cast<Index>(values.size()), [&](Index i) { return key_of(values[i]); }) == expected);
   CHECK(order_by(0, [](Index) { return std::uint64_t{0}; }).empty());
 }
 

@@ -2,10 +2,8 @@
 // std::stable_sort is given costs 1 to 6 kB of WASM.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "pliant/core/types.h"
@@ -15,11 +13,9 @@ namespace pliant {
 struct Keyed {
   std::uint64_t key = 0;
   Index index = 0;
-
-  auto operator<=>(const Keyed&) const = default;
 };
 
-/// Ascending by key, equal keys by index.
+/// Ascending by key, equal keys in the order they had. In linear time.
 void sort_keyed(std::span<Keyed> items);
 
 /// Keys in the order of the numbers (not NaN); 0 and -0 have the same one.

@@ -38,8 +38,9 @@ struct BlockMatrix {
   void sum_off_diagonal(const std::vector<std::pair<Edge, double>>& entries) {
     edges.clear();
     off_diagonal.clear();
-    const auto key = [](const auto& entry) { return key_of(entry.first[0], entry.first[1]); };
-    for (const auto& [edge, value] : sorted_by(entries, key)) {
+    const auto key = [&](Index i) { return key_of(entries[i].first[0], entries[i].first[1]); };
+    for (const Index i : order_by(static_cast<Index>(entries.size()), key)) {
+      const auto& [edge, value] = entries[i];
       if (edges.empty() || edges.back() != edge) {
         edges.push_back(edge);
         off_diagonal.push_back(0.0);
