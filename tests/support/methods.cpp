@@ -5,7 +5,6 @@
 #include "pliant/deformers/arap/deformer.h"
 #include "pliant/deformers/edge_material/deformer.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
-#include "pliant/deformers/rigid_cells/deformer.h"
 
 namespace pliant::test {
 namespace {
@@ -60,21 +59,6 @@ Method edge_material(const char* name, const EdgeMaterialOptions& options) {
   return method;
 }
 
-Method rigid_cells(const char* name, RigidCellsOptions options) {
-  options.resolution = 8;
-  Method method{name, [options](auto shape) -> std::unique_ptr<Deformer> {
-                  auto deformer = RigidCells::create(std::move(shape), options);
-                  REQUIRE(deformer.ok());
-                  return std::move(*deformer);
-                }};
-  std::vector<RigidCellsOptions> others(4, options);
-  others[1].transfer = CellTransfer::blend;
-  others[2].hold = CellHold::points;
-  others[3].stiffness = {{{1, 2, 3}, 4.0}};
-  method.live_options = setters<RigidCells>(others);
-  return method;
-}
-
 Method recorded(Method method, const Eigen::Vector3d& mean, const Eigen::Vector3d& vertex) {
   method.recorded = {mean, vertex};
   return method;
@@ -108,9 +92,6 @@ std::vector<Method> methods() {
                              {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
                {-0.0806609261996718, 0.0257392411463397, 0.116561130227058},
                {-0.560329254375608, 0.259191211154912, 0.935393981232096}),
-      rigid_cells("rigid-cells", {}),
-      rigid_cells("rigid-cells, shell, blend", {.interior = false, .transfer = CellTransfer::blend}),
-      rigid_cells("rigid-cells, points", {.hold = CellHold::points}),
   };
 }
 

@@ -30,7 +30,7 @@ interface Table {
 type Nested = Record<string, unknown>;
 
 /** Fields that are lists of objects where they are split into tables. */
-const records: readonly string[] = ["edges", "folded", "cells", "pairs"];
+const records: readonly string[] = ["edges", "folded"];
 
 export function readTables(raw: RawState): Table[] {
   return Array.from({ length: raw.size() }, (_, i) => ({
@@ -47,23 +47,8 @@ export function toState(tables: Table[]): State {
     parent[last] = toValue(table);
   }
   for (const name of records) if (isColumns(state[name])) state[name] = toRows(state[name]);
-  if (state.cells) state.cells = (state.cells as PackedCell[]).map(unpackCell);
   if (state.handles) state.handles = splitHandles(state.handles as PackedHandles);
   return state as State;
-}
-
-/** How a cell of rigid-cells is held: not, whole, or at a point, which is then `point`. */
-interface PackedCell extends Nested {
-  held: number;
-  point: number[];
-}
-
-const unpackCell = ({ held, point, ...cell }: PackedCell): Nested => ({ ...cell, held: [null, "cell", point][held] });
-
-function packCell(place: Place, value: unknown): Nested {
-  const { held, ...cell } = fields(place, value, ["center", "size", "rotation", "translation", "factor", "held"]);
-  if (held === null || held === undefined) return { ...cell, held: 0, point: [0, 0, 0] };
-  return held === "cell" ? { ...cell, held: 1, point: [0, 0, 0] } : { ...cell, held: 2, point: held };
 }
 
 type Columns = Record<string, unknown[]>;
@@ -125,8 +110,6 @@ function packHandles(place: Place, value: unknown): PackedHandles {
 export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[], others: readonly string[]): void {
   const tops = [...new Set([...like.map((table) => table.name.split("/")[0]), ...others])];
   const given: Nested = { ...fields(place, state, tops, "field of this state") };
-  const cells = place.at("cells");
-  if (given.cells !== undefined) given.cells = Array.from(list(cells, given.cells), (cell, i) => packCell(cells.item(i), cell));
   for (const name of records) {
     const columns = like.filter((table) => table.name.startsWith(`${name}/`)).map((table) => table.name.slice(name.length + 1));
     if (columns.length > 0 && given[name] !== undefined) given[name] = toColumns(place.at(name), given[name], columns);
