@@ -40,7 +40,12 @@ function printTable(rows) {
   const cells = [columns.map(([title]) => title), ...rows.map((row) => columns.map(([, cell]) => cell(row)))];
   const widths = columns.map((_, c) => Math.max(...cells.map((row) => row[c].length)));
   for (const row of cells) {
-    console.log(row.map((cell, c) => (c === 0 ? cell.padEnd(widths[c]) : cell.padStart(widths[c]))).join("  ").trimEnd());
+    console.log(
+      row
+        .map((cell, c) => (c === 0 ? cell.padEnd(widths[c]) : cell.padStart(widths[c])))
+        .join("  ")
+        .trimEnd(),
+    );
   }
 }
 
@@ -54,6 +59,8 @@ await main(async (words) => {
   const rows = merge(native, wasm);
   printTable(rows);
   mkdirSync(join(root, "build"), { recursive: true });
-  writeFileSync(join(root, "build/bench.json"), `${JSON.stringify({ node: process.version, benches: rows }, null, 2)}\n`);
+  writeFileSync(
+    join(root, "build/bench.json"), `${JSON.stringify({ node: process.version, benches: rows }, null, 2)}\n`,
+  );
   console.log("\nbuild/bench.json holds these figures.");
 });

@@ -18,8 +18,10 @@ export async function build() {
   await buildTargets("wasm", ["pliant_wasm", "pliant_io_wasm"]);
   await step("package", {
     inputs: packageInputs,
-    outputs: ["pliant.js", "inline.js", "pliant.global.js", "worker.js", "io.js", "three.js", "cli.js", "pliant.wasm", "pliant-io.wasm", "types/index.d.ts"]
-      .map((name) => `dist/${name}`),
+    outputs: [
+      "pliant.js", "inline.js", "pliant.global.js", "worker.js", "io.js", "three.js", "cli.js", "pliant.wasm",
+      "pliant-io.wasm", "types/index.d.ts",
+    ].map((name) => `dist/${name}`),
     action: async () => (await import("../bindings/js/build.mjs")).buildPackage(),
   });
   await step("demo page", {

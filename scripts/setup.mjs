@@ -92,7 +92,9 @@ async function installNodePackages() {
   if (nodePackagesMatchLock()) return;
   heading("Installing npm packages");
   // Whatever the user's configuration leaves out, the build needs the development packages.
-  await run("npm", ["ci", "--include=dev", "--include=optional", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error"]);
+  await run("npm", [
+    "ci", "--include=dev", "--include=optional", "--no-audit", "--no-fund", "--no-update-notifier", "--loglevel=error",
+  ]);
 }
 
 /** npm writes node_modules/.package-lock.json last: what it lists was installed whole. */
@@ -109,7 +111,9 @@ function nodePackagesMatchLock() {
 
 if (isProgram(import.meta.url)) {
   await main(async ([purpose = "test", ...rest]) => {
-    if (rest.length > 0) throw new Failure(`setup: unexpected "${rest[0]}"; usage: node scripts/setup.mjs [${purposes.join("|")}]`);
+    if (rest.length > 0) {
+      throw new Failure(`setup: unexpected "${rest[0]}"; usage: node scripts/setup.mjs [${purposes.join("|")}]`);
+    }
     await setup(purpose);
     console.log(`Everything needed to ${purpose} is here.`);
   });

@@ -49,7 +49,10 @@ async function creature() {
 /** Everything the result depends on: rebuilt only when one of these changes. */
 function fingerprint() {
   const hash = createHash("sha256");
-  for (const file of ["build-shapes.mjs", "shapes/creature.mjs", "shapes/encode.mjs", "shapes/parts.mjs", "shapes/remesh.mjs", "shapes/sdf.mjs", "shapes/walk.mjs"]) {
+  for (const file of [
+    "build-shapes.mjs", "shapes/creature.mjs", "shapes/encode.mjs", "shapes/parts.mjs", "shapes/remesh.mjs",
+    "shapes/sdf.mjs", "shapes/walk.mjs",
+  ]) {
     hash.update(readFileSync(join(here, file)));
   }
   hash.update(readFileSync(join(here, "../package-lock.json")));

@@ -11,14 +11,20 @@ import { slimThree } from "./slim-three.mjs";
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "..");
 
-/** Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the modules alone take 320 kB of what is here, inlined, the glTF library 40. */
+/**
+ * Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the modules alone take 320 kB of what is here, inlined, the
+ * glTF library 40.
+ */
 const budget = { raw: 1.5e6, gzip: 630e3 };
 
 /** The module "#shapes": what build-shapes.mjs made. */
 const shapesPlugin = {
   name: "pliant-shapes",
   resolveId: (id) => (id === "#shapes" ? "\0shapes" : undefined),
-  load: (id) => (id === "\0shapes" ? `export const shapes = ${JSON.stringify(JSON.parse(readFileSync(shapesFile, "utf8")).shapes)}` : undefined),
+  load: (id) =>
+    id === "\0shapes"
+      ? `export const shapes = ${JSON.stringify(JSON.parse(readFileSync(shapesFile, "utf8")).shapes)}`
+      : undefined,
 };
 
 /** The package's worker entry with everything inside: in a page of one file there is nothing beside it to load. */
@@ -29,7 +35,9 @@ const packagePlugin = (dist) => ({
   transform(code, id) {
     if (id !== join(dist, "worker.js")) return undefined;
     const beside = /new URL\((["'`])\.\/(?:pliant\.wasm|pliant-io\.wasm|worker-host\.js)\1,\s*import\.meta\.url\)/g;
-    if (code.match(beside)?.length !== 3) throw new Error(`${id}: expected it to name pliant.wasm, pliant-io.wasm and worker-host.js once each`);
+    if (code.match(beside)?.length !== 3) {
+      throw new Error(`${id}: expected it to name pliant.wasm, pliant-io.wasm and worker-host.js once each`);
+    }
     return code.replace(beside, 'new URL("about:blank")');
   },
 });
@@ -47,7 +55,9 @@ function inlineBundle(_, bundle) {
     const file = name.split("/").pop();
     if (name.endsWith(".js")) {
       const script = `<script type="module">${part.code.replaceAll("</script", "<\\/script")}</script>`;
-      page.source = page.source.replace(new RegExp(`<script[^>]*${file}[^>]*></script>`), "").replace("</body>", () => `${script}\n</body>`);
+      page.source = page.source
+        .replace(new RegExp(`<script[^>]*${file}[^>]*></script>`), "")
+        .replace("</body>", () => `${script}\n</body>`);
     } else if (name.endsWith(".css")) {
       page.source = page.source.replace(new RegExp(`<link[^>]*${file}[^>]*>`), () => `<style>${part.source}</style>`);
     } else continue;
@@ -63,7 +73,10 @@ export async function buildDemo({ dist = join(root, "dist"), out = join(dist, "d
     root: here,
     logLevel: "warn",
     plugins: [packagePlugin(dist), shapesPlugin, slimThree, inlinePlugin],
-    build: { write: false, target: "es2022", assetsInlineLimit: 1e8, cssCodeSplit: false, modulePreload: false, chunkSizeWarningLimit: 2000, rolldownOptions: { output: { codeSplitting: false } } },
+    build: {
+      write: false, target: "es2022", assetsInlineLimit: 1e8, cssCodeSplit: false, modulePreload: false,
+      chunkSizeWarningLimit: 2000, rolldownOptions: { output: { codeSplitting: false } },
+    },
   });
   const files = result.output.map((file) => file.fileName);
   if (files.join() !== "index.html") throw new Error(`the demo page should be one file, but is ${files.join(", ")}`);

@@ -5,18 +5,22 @@
 /** Shader chunks that are only included behind a #define that the page's materials never set. */
 const chunks = [
   "alphahash_fragment", "alphahash_pars_fragment", "batching_pars_vertex", "batching_vertex", "bumpmap_pars_fragment",
-  "clearcoat_normal_fragment_begin", "clearcoat_normal_fragment_maps", "clearcoat_pars_fragment", "clipping_planes_fragment",
-  "clipping_planes_pars_fragment", "clipping_planes_pars_vertex", "clipping_planes_vertex", "displacementmap_pars_vertex",
-  "displacementmap_vertex", "envmap_common_pars_fragment", "envmap_fragment", "envmap_pars_fragment", "envmap_pars_vertex",
-  "envmap_physical_pars_fragment", "envmap_vertex", "gradientmap_pars_fragment", "iridescence_fragment",
-  "iridescence_pars_fragment", "lightmap_pars_fragment", "lights_lambert_fragment", "lights_lambert_pars_fragment",
-  "lights_physical_fragment", "lights_physical_pars_fragment", "lights_toon_fragment", "lights_toon_pars_fragment",
-  "morphcolor_vertex", "morphinstance_vertex", "morphnormal_vertex", "morphtarget_pars_vertex", "morphtarget_vertex",
+  "clearcoat_normal_fragment_begin", "clearcoat_normal_fragment_maps", "clearcoat_pars_fragment",
+  "clipping_planes_fragment", "clipping_planes_pars_fragment", "clipping_planes_pars_vertex", "clipping_planes_vertex",
+  "displacementmap_pars_vertex", "displacementmap_vertex", "envmap_common_pars_fragment", "envmap_fragment",
+  "envmap_pars_fragment", "envmap_pars_vertex", "envmap_physical_pars_fragment", "envmap_vertex",
+  "gradientmap_pars_fragment", "iridescence_fragment", "iridescence_pars_fragment", "lightmap_pars_fragment",
+  "lights_lambert_fragment", "lights_lambert_pars_fragment", "lights_physical_fragment",
+  "lights_physical_pars_fragment", "lights_toon_fragment", "lights_toon_pars_fragment", "morphcolor_vertex",
+  "morphinstance_vertex", "morphnormal_vertex", "morphtarget_pars_vertex", "morphtarget_vertex",
   "normalmap_pars_fragment", "skinbase_vertex", "skinning_pars_vertex", "skinning_vertex", "skinnormal_vertex",
   "transmission_fragment", "transmission_pars_fragment",
 ];
 
-/** Classes the renderer names, and what is left of them: one that it never makes, one that it only asks whether it is on. */
+/**
+ * Classes the renderer names, and what is left of them: one that it never makes, one that it only asks whether it is
+ * on.
+ */
 const classes = {
   PMREMGenerator: "class PMREMGenerator {}",
   WebXRManager: `class WebXRManager {

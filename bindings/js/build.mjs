@@ -99,7 +99,9 @@ async function dracoModule() {
 
 /** In its place where everything is in one script: it weighs more than all other readers, and few files need it. */
 const noDraco = () => `export const wasm = ${JSON.stringify(gzipSync("").toString("base64"))};
-  export default () => { throw new Error("it is compressed with Draco, whose decoder is not part of this script; expected a file without"); };`;
+  export default () => {
+  throw new Error("it is compressed with Draco, whose decoder is not part of this script; expected a file without");
+};`;
 
 const exported = (value) => `export default ${JSON.stringify(value)};`;
 
@@ -127,11 +129,17 @@ async function checkSizes(out) {
   const excess = [];
   for (const { file, ...limits } of budget) {
     const parts = await Promise.all((await withImports(out, file)).map((name) => readFile(join(out, name))));
-    const sizes = { raw: sum(parts.map((part) => part.length)), gzip: sum(parts.map((part) => gzipSync(part, { level: 9 }).length)) };
-    const columns = ["raw", "gzip"].map((kind) => `${kilobytes(sizes[kind])} ${kind}${limits[kind] ? ` of ${kilobytes(limits[kind])}` : ""}`);
+    const sizes = {
+      raw: sum(parts.map((part) => part.length)), gzip: sum(parts.map((part) => gzipSync(part, { level: 9 }).length)),
+    };
+    const columns = ["raw", "gzip"].map(
+      (kind) => `${kilobytes(sizes[kind])} ${kind}${limits[kind] ? ` of ${kilobytes(limits[kind])}` : ""}`,
+    );
     console.log(`${file.padEnd(16)}${columns.map((column) => column.padStart(26)).join("")}`);
     for (const kind of Object.keys(limits)) {
-      if (sizes[kind] > limits[kind]) excess.push(`${file}: ${kilobytes(sizes[kind])} ${kind}, expected at most ${kilobytes(limits[kind])}`);
+      if (sizes[kind] > limits[kind]) {
+        excess.push(`${file}: ${kilobytes(sizes[kind])} ${kind}, expected at most ${kilobytes(limits[kind])}`);
+      }
     }
   }
   if (excess.length > 0) throw new Error(`size budget exceeded: ${excess.join("; ")}`);

@@ -5,7 +5,10 @@ import { Core } from "./boundary/core.js";
 import { Pliant } from "./pliant.js";
 import { type Binary, compile, type InitOptions, instantiate, readInitOptions } from "./boundary/wasm.js";
 
-/** Starts the library once and gives it to every caller; a failed start is not kept. Errors: invalid-option, load-failed. */
+/**
+ * Starts the library once and gives it to every caller; a failed start is not kept. Errors: invalid-option,
+ * load-failed.
+ */
 export type Init = (options?: InitOptions) => Promise<Pliant>;
 
 /** `beside`: the WASM to take when the options name none. */

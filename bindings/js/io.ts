@@ -14,7 +14,9 @@ export { refined } from "./io/refined.js";
 export type { Mesh, ReadOptions, ReadProgress, ShapeFile, WritableShape } from "./io/shape_file.js";
 
 export interface FilesOptions extends InitOptions {
-  /** Takes the WASM from inside the script instead of from a file beside it: the default for a page opened from a file. */
+  /**
+   * Takes the WASM from inside the script instead of from a file beside it: the default for a page opened from a file.
+   */
   inline?: boolean;
 }
 
@@ -26,11 +28,15 @@ let current: Files | undefined;
  */
 export function init(options?: FilesOptions): Files {
   const place = new Place("invalid-option", "options");
-  const { inline, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline"], "option of init");
+  const { inline, ...rest } = fields(
+    place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline"], "option of init",
+  );
   const source = readInitOptions(rest);
   const inside = inline === undefined ? globalThis.location?.protocol === "file:" : flag(place.at("inline"), inline);
   const unpacked = async () => (await import("./io/unpack.js")).unpackIo();
-  current ??= new Files(new IoModule(source, inside ? unpacked : () => fetchBinary(new URL("./pliant-io.wasm", import.meta.url))));
+  current ??= new Files(
+    new IoModule(source, inside ? unpacked : () => fetchBinary(new URL("./pliant-io.wasm", import.meta.url))),
+  );
   return current;
 }
 

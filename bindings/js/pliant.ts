@@ -33,12 +33,18 @@ export class Pliant {
     return new Deformer(this.#core, shape, options);
   }
 
-  /** Chooses the limb of a mesh that a stroke was drawn on, to be posed by more strokes. Errors: invalid-shape, invalid-option. */
+  /**
+   * Chooses the limb of a mesh that a stroke was drawn on, to be posed by more strokes. Errors: invalid-shape,
+   * invalid-option.
+   */
   sketch(shape: Shape, options: SketchOptions): Sketch {
     return new Sketch(this.#core, shape, options);
   }
 
-  /** The limb under a pixel as a reference stroke, from the body to there: for a gesture that leaves the shape at once. Errors: invalid-option. */
+  /**
+   * The limb under a pixel as a reference stroke, from the body to there: for a gesture that leaves the shape at once.
+   * Errors: invalid-option.
+   */
   limbStroke(shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> }): [x: number, y: number][] {
     return limbStroke(this.#core, shape, options);
   }

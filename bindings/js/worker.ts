@@ -22,7 +22,10 @@ export interface WorkerInitOptions extends InitOptions {
    * for a page opened from a file. A strict content-security policy must then allow `worker-src blob:`.
    */
   inline?: boolean;
-  /** Where pliant-io.wasm comes from, which `read` and `write` load. Left out: from beside this script, or from inside it. */
+  /**
+   * Where pliant-io.wasm comes from, which `read` and `write` load. Left out: from beside this script, or from inside
+   * it.
+   */
   io?: InitOptions;
 }
 
@@ -31,7 +34,9 @@ let current: Promise<WorkerPliant> | undefined;
 /** Starts the worker; every call gives the same one until it is disposed. Errors: invalid-option, load-failed. */
 export async function init(options?: WorkerInitOptions): Promise<WorkerPliant> {
   const place = new Place("invalid-option", "options");
-  const { inline, io, ...rest } = fields(place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline", "io"], "option of init");
+  const { inline, io, ...rest } = fields(
+    place, options ?? {}, ["wasmUrl", "wasmBinary", "wasmModule", "inline", "io"], "option of init",
+  );
   const [source, ioSource] = [readInitOptions(rest), readInitOptions(io)];
   const inside = inline === undefined ? globalThis.location?.protocol === "file:" : flag(place.at("inline"), inline);
   current ??= start(inside, source, ioSource).catch((error) => {
@@ -67,7 +72,9 @@ function notStarted(error: Error): PliantError {
 }
 
 /** The source of the WASM in a form that a worker, which may have no address of its own, can use. */
-async function travelling(source: InitOptions, inline: boolean, { url, unpack }: (typeof beside)["io"]): Promise<InitOptions> {
+async function travelling(
+  source: InitOptions, inline: boolean, { url, unpack }: (typeof beside)["io"],
+): Promise<InitOptions> {
   if (source.wasmUrl) return { wasmUrl: absolute(source.wasmUrl).href };
   if (source.wasmBinary || source.wasmModule) return source;
   return inline ? { wasmBinary: await unpack() } : { wasmUrl: url().href };
@@ -93,6 +100,8 @@ async function launch(inline: boolean): Promise<WorkerPort> {
     return webPort(new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" }))));
   }
   // Not written as below, which a bundler for the browser would follow.
-  if (threads) return nodePort(new threads.Worker(new URL(import.meta.url.replace(/[^/]*$/, "worker-host.js")), { execArgv: [] }));
+  if (threads) {
+    return nodePort(new threads.Worker(new URL(import.meta.url.replace(/[^/]*$/, "worker-host.js")), { execArgv: [] }));
+  }
   return webPort(new Worker(new URL("./worker-host.js", import.meta.url), { type: "module" }));
 }

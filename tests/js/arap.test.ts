@@ -7,7 +7,8 @@ import { picture } from "./support/shapes.js";
 import { edit, heldVertices, left, mesh, right, ring, ringEdit, sheetEdit } from "./support/surface_edits.js";
 import { type ArapState, cotangentWeights, evaluateArap } from "./support/surface_oracle.js";
 
-const largest = (rows: number[][], except: Set<number>) => Math.max(...rows.flatMap((row, v) => (except.has(v) ? [0] : row.map(Math.abs))));
+const largest = (rows: number[][], except: Set<number>) =>
+  Math.max(...rows.flatMap((row, v) => (except.has(v) ? [0] : row.map(Math.abs))));
 
 describe.each([
   { name: "a sheet, spokes", of: mesh, energy: "spokes", held: sheetEdit },
@@ -52,7 +53,9 @@ describe("arap", () => {
     const step = { method: "arap", options: { constraintWeight: 0.5 }, ...sheetEdit };
     const { state, report, quality } = await edit<ArapState>(mesh, step);
     const [{ vertices, targets }] = state.handles;
-    const apart = vertices.reduce((sum, v, i) => sum + targets[i].reduce((s, x, a) => s + (x - state.result[v][a]) ** 2, 0), 0);
+    const apart = vertices.reduce(
+      (sum, v, i) => sum + targets[i].reduce((s, x, a) => s + (x - state.result[v][a]) ** 2, 0), 0,
+    );
     expect(quality.constraintError).toBeGreaterThan(1e-3);
     expect(report.energy.constraint / apart).toBeCloseTo(1, 6);
     expect(report.energy.total / (evaluateArap(state, mesh, false).energy + 0.5 * apart)).toBeCloseTo(1, 6);
@@ -62,7 +65,9 @@ describe("arap", () => {
     const middle = 10 * 21 + 10;
     const peak = async (smoothness: number) => {
       const handles = [{ select: { vertices: [middle] }, move: { translate: [0, 0, 0.3] } }];
-      const { state, report } = await edit<ArapState>(mesh, { method: "arap", options: { smoothness }, fixed: [left, right], handles });
+      const { state, report } = await edit<ArapState>(mesh, {
+        method: "arap", options: { smoothness }, fixed: [left, right], handles,
+      });
       expect("smoothness" in report.energy).toBe(smoothness > 0);
       return state.result[middle][2] - state.result[middle + 1][2];
     };
@@ -71,7 +76,11 @@ describe("arap", () => {
 
   it("works in the plane", async () => {
     const plane = pliant.shape({ ...picture(11), dimension: 2 });
-    const bend = { method: "arap", fixed: [half([-1, 0], -0.15)], handles: [{ select: half([1, 0], 0.9), move: { rotate: { degrees: 30 }, translate: [0, 0.2] } }] };
+    const bend = {
+      method: "arap",
+      fixed: [half([-1, 0], -0.15)],
+      handles: [{ select: half([1, 0], 0.9), move: { rotate: { degrees: 30 }, translate: [0, 0.2] } }],
+    };
     const { positions, report } = await pliant.edit(plane, script([bend]) as never);
     expect(positions).toHaveLength(242);
     expect(positions[241]).toBeGreaterThan(1.1);

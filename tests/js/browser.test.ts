@@ -14,9 +14,12 @@ const mesh = sheet(15);
 const left = where(mesh.positions, (x) => x < 0.15);
 const right = where(mesh.positions, (x) => x > 0.9);
 
+const given = { positions: Array.from(mesh.positions), triangles: Array.from(mesh.triangles) };
+
 /** An application: lifts a side of a sheet, by the calls that `library` and a worker share. */
 const lift = `async (library) => {
-  const shape = await library.shape({ positions: Float64Array.from(${JSON.stringify(Array.from(mesh.positions))}), triangles: ${JSON.stringify(Array.from(mesh.triangles))} });
+  const { positions, triangles } = ${JSON.stringify(given)};
+  const shape = await library.shape({ positions: Float64Array.from(positions), triangles });
   const deformer = await library.deformer(shape, { method: "embedded-graph", nodeCount: 30 });
   await deformer.setFixed(${JSON.stringify(left)});
   const hand = await deformer.addHandle(${JSON.stringify(right)});
@@ -24,6 +27,9 @@ const lift = `async (library) => {
   await deformer.solve();
   return Array.from(await deformer.positions());
 }`;
+/** A program that lifts it by a library that comes by a promise. */
+const lifted = (library: string) =>
+  `const lift = ${lift}; window.results = ${library}.then(lift).then((found) => [found]);`;
 const bundled = `
 import { init } from "pliant";
 import { init as initWorker } from "pliant/worker";
@@ -42,7 +48,9 @@ afterAll(() => browser?.close());
 async function results(address: string): Promise<{ found: number[][]; errors: string[] }> {
   const page = await browser.newPage();
   const errors: string[] = [];
-  page.on("console", (message) => message.type() === "error" && !message.location().url.endsWith("favicon.ico") && errors.push(message.text()));
+  page.on("console", (message) => {
+    if (message.type() === "error" && !message.location().url.endsWith("favicon.ico")) errors.push(message.text());
+  });
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(address);
   const found = await page.evaluate(() => (window as unknown as { results: Promise<number[][]> }).results);
@@ -86,7 +94,9 @@ describe("bundled by Vite", () => {
 describe("as it is", () => {
   it("runs from a server, without a bundler", async () => {
     const main = bundled.replaceAll('"pliant"', '"./pliant.js"').replaceAll('"pliant/worker"', '"./worker.js"');
-    const pages = { "/": '<!doctype html><title>Plain</title><script type="module" src="./main.js"></script>', "/main.js": main };
+    const pages = {
+      "/": '<!doctype html><title>Plain</title><script type="module" src="./main.js"></script>', "/main.js": main,
+    };
     const server = await serve(join(installed, "dist"), {}, { ...pages, "/index.html": pages["/"] });
     expect(await results(`${server.address}index.html`)).toEqual({ found: [expected, expected], errors: [] });
     await server.close();
@@ -94,9 +104,11 @@ describe("as it is", () => {
 
   it("has all inside in pliant/inline: nothing is fetched, not even from a data: URL", async () => {
     const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'";
-    const main = `import { init } from "./inline.js"; const lift = ${lift}; window.results = init().then(lift).then((found) => [found]);`;
+    const main = `import { init } from "./inline.js"; ${lifted("init()")}`;
     const page = '<!doctype html><title>Strict</title><script type="module" src="./main.js"></script>';
-    const server = await serve(join(installed, "dist"), { "Content-Security-Policy": policy }, { "/index.html": page, "/main.js": main });
+    const server = await serve(
+      join(installed, "dist"), { "Content-Security-Policy": policy }, { "/index.html": page, "/main.js": main },
+    );
     expect(await results(`${server.address}index.html`)).toEqual({ found: [expected], errors: [] });
     await server.close();
   });
@@ -120,11 +132,15 @@ describe("kept from loading", () => {
 
   it("by the network", async () => {
     const policy = "script-src 'self' 'wasm-unsafe-eval'";
-    expect(await found(policy, '{ wasmUrl: "gone.wasm" }')).toEqual([failed("gone.wasm answers 404"), failed("gone.wasm answers 404")]);
+    expect(await found(policy, '{ wasmUrl: "gone.wasm" }')).toEqual([
+      failed("gone.wasm answers 404"), failed("gone.wasm answers 404"),
+    ]);
   });
 
   it("by a policy against WASM", async () => {
-    expect(await found("script-src 'self'")).toEqual([failed("Content Security Policy"), failed("Content Security Policy")]);
+    expect(await found("script-src 'self'")).toEqual([
+      failed("Content Security Policy"), failed("Content Security Policy"),
+    ]);
   });
 
   it("by a policy against workers", async () => {
@@ -142,25 +158,28 @@ describe("opened from a file", () => {
 
   it("runs as a classic script beside the page", async () => {
     application("files", { "pliant.global.js": readFileSync(join(installed, "dist/pliant.global.js"), "utf8") });
-    const address = open("classic", `<script src="pliant.global.js"></script><script>window.results = pliant.init().then(${lift}).then((found) => [found]);</script>`);
+    const [library, program] = ['<script src="pliant.global.js"></script>', lifted("pliant.init()")];
+    const address = open("classic", `${library}<script>${program}</script>`);
     expect(await results(address)).toEqual({ found: [expected], errors: [] });
   });
 
   it("runs as a module inside the page", async () => {
     const inline = readFileSync(join(installed, "dist/inline.js"), "utf8");
     const name = /([\w$]+) as init\b/.exec(inline)![1];
-    const address = open("module", `<script type="module">${safe(inline)}\nwindow.results = ${name}().then(${lift}).then((found) => [found]);</script>`);
+    const address = open("module", `<script type="module">${safe(inline)}\n${lifted(`${name}()`)}</script>`);
     expect(await results(address)).toEqual({ found: [expected], errors: [] });
   });
 
   it("runs in a worker made from inside the script", async () => {
-    const source = `import { init } from "pliant/worker"; const lift = ${lift}; window.results = init().then(lift).then((found) => [found]);`;
+    const source = `import { init } from "pliant/worker"; ${lifted("init()")}`;
     const folder = application("from-file", { "main.js": source });
     const built = await viteBuild({
       configFile: false, root: folder, logLevel: "silent",
       build: { write: false, rolldownOptions: { input: join(folder, "main.js"), output: { codeSplitting: false } } },
     });
     const [chunk] = (built as { output: { code: string }[] }).output;
-    expect(await results(open("worker", `<script type="module">${safe(chunk.code)}</script>`))).toEqual({ found: [expected], errors: [] });
+    expect(await results(open("worker", `<script type="module">${safe(chunk.code)}</script>`))).toEqual({
+      found: [expected], errors: [],
+    });
   });
 });

@@ -73,26 +73,29 @@ describe.each(["pliant", "inline"])("%s", (name) => {
 });
 
 describe("worker", () => {
-  it.each([{ inline: false }, { inline: true }])("says so where memory runs out, and starts again %o", async ({ inline }) => {
-    const { init } = entries.worker;
-    const first = await init({ inline, wasmBinary: cramped() });
-    const shape = await first.shape(mesh);
-    const deformer = await first.deformer(shape, big);
-    await deformer.addHandle([0]);
-    const [step, waiting] = await Promise.all([errorOf(() => deformer.step()), errorOf(() => deformer.solve())]);
-    expect(step).toMatchObject({ code: "crashed", message: expect.stringContaining("ran out of memory") });
-    expect(waiting.code).toBe("crashed");
-    expect((await errorOf(() => shape.select({ all: true }))).code).toBe("crashed");
-    await deformer.dispose();
-    await shape.dispose();
-    const second = await init({ inline });
-    expect(second).not.toBe(first);
-    const next = await second.deformer(await second.shape(mesh), small);
-    expect((await next.step()).energy).toBe(0);
-    first.dispose();
-    expect((await next.step()).energy).toBe(0);
-    second.dispose();
-  });
+  it.each([{ inline: false }, { inline: true }])(
+    "says so where memory runs out, and starts again %o",
+    async ({ inline }) => {
+      const { init } = entries.worker;
+      const first = await init({ inline, wasmBinary: cramped() });
+      const shape = await first.shape(mesh);
+      const deformer = await first.deformer(shape, big);
+      await deformer.addHandle([0]);
+      const [step, waiting] = await Promise.all([errorOf(() => deformer.step()), errorOf(() => deformer.solve())]);
+      expect(step).toMatchObject({ code: "crashed", message: expect.stringContaining("ran out of memory") });
+      expect(waiting.code).toBe("crashed");
+      expect((await errorOf(() => shape.select({ all: true }))).code).toBe("crashed");
+      await deformer.dispose();
+      await shape.dispose();
+      const second = await init({ inline });
+      expect(second).not.toBe(first);
+      const next = await second.deformer(await second.shape(mesh), small);
+      expect((await next.step()).energy).toBe(0);
+      first.dispose();
+      expect((await next.step()).energy).toBe(0);
+      second.dispose();
+    },
+  );
 });
 
 describe("objects that are forgotten", () => {
@@ -107,7 +110,8 @@ describe("objects that are forgotten", () => {
         return instance;
       };
       const pliant = await init();
-      const make = () => pliant.deformer(pliant.shape({ positions: [0, 0, 0, 1, 0, 0, 0, 1, 0] }), { method: "embedded-graph", nodeCount: 2 });
+      const shape = () => pliant.shape({ positions: [0, 0, 0, 1, 0, 0, 0, 1, 0] });
+      const make = () => pliant.deformer(shape(), { method: "embedded-graph", nodeCount: 2 });
       const kept = make();
       for (let i = 0; i < 20; ++i) make();
       new Uint8Array(memory.buffer).fill(0xff);

@@ -80,7 +80,9 @@ describe("handles", () => {
     const hand = alone.addHandle(right);
     hand.move({ scale: 2, rotate: { axis: [0, 0, 3], degrees: 90 }, translate: [1, 2, 3] });
     const { targets } = alone.state().handles[0];
-    const center = [0, 1, 2].map((axis) => right.reduce((sum, v) => sum + mesh.positions[3 * v + axis], 0) / right.length);
+    const center = [0, 1, 2].map(
+      (axis) => right.reduce((sum, v) => sum + mesh.positions[3 * v + axis], 0) / right.length,
+    );
     right.forEach((v, i) => {
       const [x, y, z] = [0, 1, 2].map((axis) => 2 * (mesh.positions[3 * v + axis] - center[axis]));
       expect(difference(targets[i], [center[0] - y + 1, center[1] + x + 2, center[2] + z + 3])).toBeLessThan(1e-12);
@@ -115,7 +117,9 @@ describe("handles", () => {
     hand.move({ translate: [0, 0, 1] });
     expect(deformer.state().handles[0].targets[0][2] - mesh.positions[3 * right[0] + 2]).toBeCloseTo(1, 12);
     hand.move({});
-    expect(deformer.state().handles[0].targets[0]).toEqual(Array.from(mesh.positions.subarray(3 * right[0], 3 * right[0] + 3)));
+    expect(deformer.state().handles[0].targets[0]).toEqual(
+      Array.from(mesh.positions.subarray(3 * right[0], 3 * right[0] + 3)),
+    );
   });
 
   it("can be removed, and their vertices held again", async () => {
@@ -206,7 +210,9 @@ describe("solving", () => {
     exact.addHandle(ids).moveTo([1.1, 0, 0.2, 1.05, 1, 0.3]);
     await exact.solve({ maxIterations: 300 });
     const moved = exact.positions(new Float64Array(mesh.positions.length));
-    expect(difference(ids.flatMap((v) => Array.from(moved.subarray(3 * v, 3 * v + 3))), [1.1, 0, 0.2, 1.05, 1, 0.3])).toBeLessThan(1e-6 * shape.diagonal);
+    expect(
+      difference(ids.flatMap((v) => Array.from(moved.subarray(3 * v, 3 * v + 3))), [1.1, 0, 0.2, 1.05, 1, 0.3]),
+    ).toBeLessThan(1e-6 * shape.diagonal);
   });
 
   it("adds nodes where they are missing when asked", async () => {
@@ -246,7 +252,13 @@ describe("solving", () => {
     deformer.addHandle(right).move({ translate: [0, 0, 0.4] });
     let turns = 0;
     const timer = setInterval(() => ++turns, 0);
-    await deformer.solve({ tolerance: 1e-14, maxIterations: 1000, onProgress: () => { for (const end = performance.now() + 2; performance.now() < end; ); } });
+    await deformer.solve({
+      tolerance: 1e-14,
+      maxIterations: 1000,
+      onProgress: () => {
+        for (const end = performance.now() + 2; performance.now() < end;);
+      },
+    });
     clearInterval(timer);
     expect(turns).toBeGreaterThan(0);
   });
@@ -311,7 +323,8 @@ describe("states", () => {
 describe("the plane", () => {
   const flat = picture(15);
   const flatShape = pliant.shape({ ...flat, dimension: 2 });
-  const side = (test: (x: number) => boolean) => Array.from({ length: 225 }, (_, v) => v).filter((v) => test(flat.positions[2 * v]));
+  const side = (test: (x: number) => boolean) =>
+    Array.from({ length: 225 }, (_, v) => v).filter((v) => test(flat.positions[2 * v]));
 
   it("has two numbers a point everywhere", async () => {
     const bent = pliant.deformer(flatShape, { method: "embedded-graph", nodeCount: 25 });
@@ -326,7 +339,9 @@ describe("the plane", () => {
     await bent.solve();
     expect(bent.positions()[moved.length - 2]).toBeGreaterThan(1.1);
     expect((await errorOf(() => hand.move({ translate: [0, 0, 1] } as never))).code).toBe("invalid-handle");
-    expect((await errorOf(() => hand.move({ rotate: { axis: [1, 0, 0], degrees: 10 } }))).message).toContain("leaves the plane");
+    expect((await errorOf(() => hand.move({ rotate: { axis: [1, 0, 0], degrees: 10 } }))).message).toContain(
+      "leaves the plane",
+    );
   });
 });
 
@@ -340,14 +355,18 @@ describe("large turns", () => {
     hand.move({ rotate: { axis: [1, 0, 0], degrees: 150 } });
     await bar.solve({ maxIterations: 300 });
     const rotations = bar.state().rotations as number[][];
-    const determinants = rotations.map(([a, b, c, d, e, f, g, h, i]) => a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g));
+    const determinants = rotations.map(
+      ([a, b, c, d, e, f, g, h, i]) => a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g),
+    );
     expect(Math.min(...determinants)).toBeGreaterThan(0);
   });
 });
 
 describe("measuring", () => {
   it("finds nothing at rest and the factor of a scaling", () => {
-    expect(pliant.measure(shape, mesh.positions)).toMatchObject({ stretch: { mean: 0, p95: 0, max: 0 }, shear: 0, area: 1, volume: null, folds: 0, intersections: 0 });
+    expect(pliant.measure(shape, mesh.positions)).toMatchObject({
+      stretch: { mean: 0, p95: 0, max: 0 }, shear: 0, area: 1, volume: null, folds: 0, intersections: 0,
+    });
     const solid = torus(24, 12);
     const twice = pliant.measure(pliant.shape(solid), solid.positions.map((x) => 2 * x), { intersections: false });
     expect(twice.stretch.mean).toBeCloseTo(1, 9);
@@ -364,9 +383,10 @@ describe("the life of objects", () => {
     gone.dispose();
     gone.dispose();
     const calls = [
-      () => gone.step(), () => gone.solve(), () => gone.positions(), () => gone.normals(), () => gone.transformPoints([0, 0, 0]),
-      () => gone.state(), () => gone.restore({ handles: [] }), () => gone.reset(), () => gone.setFixed(left), () => gone.addHandle([0]),
-      () => gone.energy(), () => gone.counters(), () => hand.move({}), () => hand.remove(),
+      () => gone.step(), () => gone.solve(), () => gone.positions(), () => gone.normals(),
+      () => gone.transformPoints([0, 0, 0]), () => gone.state(), () => gone.restore({ handles: [] }),
+      () => gone.reset(), () => gone.setFixed(left), () => gone.addHandle([0]), () => gone.energy(),
+      () => gone.counters(), () => hand.move({}), () => hand.remove(),
     ];
     for (const call of calls) expect((await errorOf(call)).code, String(call)).toBe("disposed");
   });

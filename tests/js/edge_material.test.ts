@@ -4,11 +4,18 @@ import { describe, expect, it } from "vitest";
 import { errorOf, pliant } from "./support/package.js";
 import { picture } from "./support/shapes.js";
 import { edit, heldVertices, left, mesh, ring, ringEdit, shape, sheetEdit } from "./support/surface_edits.js";
-import { cotangentWeights, type EdgeMaterialState, evaluateEdgeMaterial, meanEdge, restErrors } from "./support/surface_oracle.js";
+import {
+  cotangentWeights, type EdgeMaterialState, evaluateEdgeMaterial, meanEdge, restErrors,
+} from "./support/surface_oracle.js";
 
 describe.each([
   { name: "a sheet", of: mesh, options: {}, held: sheetEdit },
-  { name: "a sheet that stretches easily along y, under gravity", of: mesh, options: { stretch: 3, bend: 0.5, pStretch: 0.7, pBend: 0.4, gravity: [0, 0, -2], field: { axis: [1, 0, 0] } }, held: sheetEdit },
+  {
+    name: "a sheet that stretches easily along y, under gravity",
+    of: mesh,
+    options: { stretch: 3, bend: 0.5, pStretch: 0.7, pBend: 0.4, gravity: [0, 0, -2], field: { axis: [1, 0, 0] } },
+    held: sheetEdit,
+  },
   { name: "a torus with the paper's lambda", of: ring, options: { lambda: 1e-3 }, held: ringEdit },
 ])("edge-material: $name", ({ of, options, held }) => {
   const edited = edit<EdgeMaterialState>(of, { method: "edge-material", options, ...held });
@@ -58,7 +65,9 @@ describe.each([
           result[v][axis] += by;
           return evaluateEdgeMaterial({ ...state, result }, of).total;
         });
-        expect(Math.abs(plus - minus) / (2 * step)).toBeLessThan(1e-4 * Math.max(1e-3, report.energy.stretch + report.energy.bend));
+        expect(Math.abs(plus - minus) / (2 * step)).toBeLessThan(
+          1e-4 * Math.max(1e-3, report.energy.stretch + report.energy.bend),
+        );
       }
     }
   });
@@ -66,7 +75,9 @@ describe.each([
 
 describe("edge-material", () => {
   const centre = 10 * 21 + 10;
-  const cloth = { method: "edge-material", options: { gravity: [0, 0, -1], bend: 0.01 }, fixed: [{ vertices: [centre] }] };
+  const cloth = {
+    method: "edge-material", options: { gravity: [0, 0, -1], bend: 0.01 }, fixed: [{ vertices: [centre] }],
+  };
 
   it("falls under gravity alone, and does not without", async () => {
     const { state } = await edit<EdgeMaterialState>(mesh, cloth);
@@ -77,7 +88,9 @@ describe("edge-material", () => {
       expect(error.code).toBe("invalid-script");
       for (const words of ["steps[0]", "asks for nothing", "a load"]) expect(error.message).toContain(words);
     }
-    const dragged = await edit<EdgeMaterialState>(mesh, { ...cloth, options: { bend: 0.01 }, handles: [], drag: [{ options: { gravity: [0, 0, -1] }, iterations: 50 }] });
+    const dragged = await edit<EdgeMaterialState>(mesh, {
+      ...cloth, options: { bend: 0.01 }, handles: [], drag: [{ options: { gravity: [0, 0, -1] }, iterations: 50 }],
+    });
     expect(dragged.state.result[0][2]).toBeLessThan(mesh.positions[2] - 0.1);
   });
 
@@ -87,12 +100,22 @@ describe("edge-material", () => {
     const two = { positions, triangles };
     const { state, report } = await edit<EdgeMaterialState>(two, cloth);
     expect(state.floating).toEqual(Array.from({ length: 441 }, (_, v) => v + 441));
-    expect(Math.max(...state.result.slice(441).flat().map((x, i) => Math.abs(x - positions[3 * 441 + i])))).toBeLessThan(1e-9);
+    expect(
+      Math.max(
+        ...state.result
+          .slice(441)
+          .flat()
+          .map((x, i) => Math.abs(x - positions[3 * 441 + i])),
+      ),
+    ).toBeLessThan(1e-9);
     expect(report.energy.gravity / evaluateEdgeMaterial(state, two).gravity).toBeCloseTo(1, 9);
   });
 
   it("remembers the normal of an edge that is folded flat, also in its state", async () => {
-    const leaf = { positions: Float64Array.of(0, 0, 0, 0, 1, 0, 1, 0.5, 0, -1, 0.5, 0.6), triangles: Uint32Array.of(0, 2, 1, 0, 1, 3) };
+    const leaf = {
+      positions: Float64Array.of(0, 0, 0, 0, 1, 0, 1, 0.5, 0, -1, 0.5, 0.6),
+      triangles: Uint32Array.of(0, 2, 1, 0, 1, 3),
+    };
     const book = pliant.shape(leaf);
     const held = () => {
       const deformer = pliant.deformer(book, { method: "edge-material" });
@@ -121,8 +144,11 @@ describe("edge-material", () => {
   });
 
   it.each([
-    ["an axis", { axis: [1, 1, 0] }], ["curvature", { curvature: "max" }], ["paths from a vertex", { geodesic: [0] }],
-    ["paths from a region", { geodesic: left }], ["strokes", { strokes: [[[0, 0, 0], [0.3, 0.2, 0], [1, 1, 0]], [[1, 0, 0], [1, 0.2, 0]]] }],
+    ["an axis", { axis: [1, 1, 0] }],
+    ["curvature", { curvature: "max" }],
+    ["paths from a vertex", { geodesic: [0] }],
+    ["paths from a region", { geodesic: left }],
+    ["strokes", { strokes: [[[0, 0, 0], [0.3, 0.2, 0], [1, 1, 0]], [[1, 0, 0], [1, 0.2, 0]]] }],
   ])("takes a field from %s", async (_, field) => {
     const deformer = pliant.deformer(shape, { method: "edge-material", field: field as never });
     const directions = deformer.field();
@@ -138,7 +164,9 @@ describe("edge-material", () => {
 
   it("paints a field in the plane", () => {
     const flat = pliant.shape({ ...picture(11), dimension: 2 });
-    const deformer = pliant.deformer(flat, { method: "edge-material", gravity: [0, -1], field: { strokes: [[[0, 0.5], [1, 0.5]]] } });
+    const deformer = pliant.deformer(flat, {
+      method: "edge-material", gravity: [0, -1], field: { strokes: [[[0, 0.5], [1, 0.5]]] },
+    });
     expect(Math.abs(deformer.field()[0])).toBeCloseTo(1, 6);
     deformer.setOptions({ field: { axis: [0, 1] } });
     expect(Math.abs(deformer.field()[1])).toBeCloseTo(1, 6);

@@ -17,10 +17,14 @@ const distance = (a: ArrayLike<number>, b: ArrayLike<number>) => {
   expect(a.length).toBe(b.length);
   return a.length === 0 ? 0 : Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
 };
-const costs = (edit: Edit) => edit.report().steps.reduce((sum, { factorizations, finish }) => sum + factorizations + (finish?.factorizations ?? 0), 0);
+const costs = (edit: Edit) =>
+  edit
+    .report()
+    .steps.reduce((sum, { factorizations, finish }) => sum + factorizations + (finish?.factorizations ?? 0), 0);
 const analyses = (edit: Edit) => edit.report().steps.reduce((sum, step) => sum + step.analyses, 0);
 /** Without what a clock says. */
-const timeless = (of: object) => JSON.parse(JSON.stringify(of, (key, value) => (/^(ms|setupMs)$/.test(key) ? 0 : value)));
+const timeless = (of: object) =>
+  JSON.parse(JSON.stringify(of, (key, value) => (/^(ms|setupMs)$/.test(key) ? 0 : value)));
 /** Opens, applies and runs to the end. */
 const carriedOut = (shape: Edit["shape"], ...documents: Document[]) => {
   const edit = pliant.open(shape);
@@ -59,7 +63,9 @@ describe.each(Object.entries(editCases))("a living edit: %s", (name, { mesh, ste
   it("does the same in small pieces", () => {
     const [whole, pieces] = [carriedOut(shape, first), pliant.open(shape)];
     pieces.apply(first);
-    for (let run = pieces.run({ milliseconds: 0 }); !run.converged; run = pieces.run({ milliseconds: 0 })) expect(run.iterations).toBeLessThanOrEqual(1);
+    for (let run = pieces.run({ milliseconds: 0 }); !run.converged; run = pieces.run({ milliseconds: 0 })) {
+      expect(run.iterations).toBeLessThanOrEqual(1);
+    }
     expect(doubles(pieces)).toEqual(doubles(whole));
   });
 
@@ -145,8 +151,14 @@ describe.each(Object.entries(editCases))("a living edit: %s", (name, { mesh, ste
       [{ ...first, version: 2 }, "version"],
       [document([{ ...step, hndles: [] }]), "steps[0].hndles"],
       [document([step, { method: "clay" }]), "steps[1].method"],
-      [document([step, { method: "arap", handles: [{ select: { vertices: [-1] }, move: {} }] }]), "steps[1].handles[0].select.vertices[0]"],
-      [document([{ method: "arap", handles: [{ select: half([1, 0, 0], 99), move: {} }] }]), "steps[0].handles[0].select"],
+      [
+        document([step, { method: "arap", handles: [{ select: { vertices: [-1] }, move: {} }] }]),
+        "steps[1].handles[0].select.vertices[0]",
+      ],
+      [
+        document([{ method: "arap", handles: [{ select: half([1, 0, 0], 99), move: {} }] }]),
+        "steps[0].handles[0].select",
+      ],
       [document([{ method: "place", parts: [{ select: { all: true } }] }]), "steps[0].parts[0]"],
       [{ format: "pliant-edit", version: 1, frames: 2, keyframes: [{ time: 0, steps: [step] }] }, "keyframes"],
       [{ format: "pliant-moment", version: 1, document: first, stages: 3 }, "moment.stages"],
@@ -164,7 +176,14 @@ describe.each(Object.entries(editCases))("a living edit: %s", (name, { mesh, ste
     const edit = carriedOut(shape, first);
     edit.dispose();
     edit.dispose();
-    for (const call of [() => edit.apply(first), () => edit.run(), () => edit.positions(), () => edit.moment(), () => edit.report(), () => edit.settle()]) {
+    for (const call of [
+      () => edit.apply(first),
+      () => edit.run(),
+      () => edit.positions(),
+      () => edit.moment(),
+      () => edit.report(),
+      () => edit.settle(),
+    ]) {
       expect((await errorOf(call)).code).toBe("disposed");
     }
     expect(carriedOut(shape, first).run()).toMatchObject({ converged: true });
@@ -193,7 +212,9 @@ describe("what a change costs", () => {
     expect(cost(step, moved)).toEqual([0, 0]);
     expect(cost(step, { ...step, solve: { iterations: 500, tolerance: 1e-10 } })).toEqual([0, 0]);
     expect(cost(step, held)[0]).toBe(1);
-    expect(cost(step, { ...step, drag: [{ handles: [{ name: "hand", move: { translate: [0, 0, 0.3] } }], iterations: 3 }] })).toEqual([0, 0]);
+    expect(
+      cost(step, { ...step, drag: [{ handles: [{ name: "hand", move: { translate: [0, 0, 0.3] } }], iterations: 3 }] }),
+    ).toEqual([0, 0]);
   });
 
   it("of live options: none where the matrix stays, else one", () => {
@@ -224,7 +245,9 @@ describe("what a change costs", () => {
 });
 
 describe("a drag", () => {
-  const to = (z: number, iterations: number, more = {}) => ({ handles: [{ name: "hand", move: { translate: [0, 0, z] } }], iterations, ...more });
+  const to = (z: number, iterations: number, more = {}) => ({
+    handles: [{ name: "hand", move: { translate: [0, 0, z] } }], iterations, ...more,
+  });
   const drag = (...entries: object[]) => document([{ ...graph, drag: entries }]);
 
   it("grows entry by entry, and only the new one is carried out", async () => {
@@ -284,7 +307,11 @@ describe("a drag", () => {
 
 describe("several steps", () => {
   const place = { method: "place", parts: [{ select: half([1, 0, 0], 0.9), move: { translate: [0, 0.1, 0] } }] };
-  const second = { ...material, fixed: [half([0, -1, 0], -0.1)], handles: [{ select: half([0, 1, 0], 1.05), move: { translate: [0, 0, 0.1] } }] };
+  const second = {
+    ...material,
+    fixed: [half([0, -1, 0], -0.1)],
+    handles: [{ select: half([0, 1, 0], 1.05), move: { translate: [0, 0, 0.1] } }],
+  };
   const steps = [graph, place, second];
 
   it("are carried out one after another, as by pliant.edit", async () => {
@@ -309,9 +336,13 @@ describe("several steps", () => {
   it("keep those before one that changes, and build those after it anew", () => {
     const edit = carriedOut(shape, document(steps));
     const [before] = [edit.report().steps];
-    edit.apply(document([graph, place, { ...second, handles: [{ ...second.handles[0], move: { translate: [0, 0, 0.2] } }] }]));
+    edit.apply(
+      document([graph, place, { ...second, handles: [{ ...second.handles[0], move: { translate: [0, 0, 0.2] } }] }]),
+    );
     edit.run();
-    expect(edit.report().steps.map(({ factorizations }) => factorizations)).toEqual(before.map(({ factorizations }) => factorizations));
+    expect(edit.report().steps.map(({ factorizations }) => factorizations)).toEqual(
+      before.map(({ factorizations }) => factorizations),
+    );
     const moved = [editCases["embedded-graph"].moved, place, second];
     edit.apply(document(moved));
     edit.run();
@@ -339,12 +370,16 @@ describe("several steps", () => {
   });
 
   it("put models away that are not needed, and make them again where they are", async () => {
-    const turn = (z: number) => ({ ...graph, fixed: [left], handles: [{ name: "hand", select: { vertices: hand }, move: { translate: [0, 0, z] } }] });
+    const turn = (z: number) => ({
+      ...graph, fixed: [left], handles: [{ name: "hand", select: { vertices: hand }, move: { translate: [0, 0, z] } }],
+    });
     const many = [0.1, -0.05, 0.1, -0.05, 0.1, 0.05].map(turn);
     const edit = carriedOut(shape, document(many));
     const { positions, report } = await pliant.edit(shape, document(many) as never);
     expect(doubles(edit)).toEqual(positions);
-    expect(edit.report().steps.map(({ method, factorizations }) => [method, factorizations])).toEqual(report.steps.map(({ method, factorizations }) => [method, factorizations]));
+    expect(edit.report().steps.map(({ method, factorizations }) => [method, factorizations])).toEqual(
+      report.steps.map(({ method, factorizations }) => [method, factorizations]),
+    );
     const moment = edit.moment();
     for (const count of [5, 2]) {
       edit.apply(document(many.slice(0, count)));
@@ -363,7 +398,11 @@ describe("several steps", () => {
     const { step, moved } = editCases.sketch;
     const coarse = limb(12, 13);
     const target = pliant.shape(coarse);
-    const refined = document([{ ...moved, refine: true }, { method: "arap", handles: [{ select: { all: true }, move: { translate: [0, 0, 1] } }] }, { ...step, region: "previous" }]);
+    const refined = document([
+      { ...moved, refine: true },
+      { method: "arap", handles: [{ select: { all: true }, move: { translate: [0, 0, 1] } }] },
+      { ...step, region: "previous" },
+    ]);
     const edit = carriedOut(target, refined);
     expect(edit.vertices).toBeGreaterThan(coarse.positions.length / 3);
     expect(edit.refinement()!.parents).toHaveLength(2 * (edit.vertices - coarse.positions.length / 3));
@@ -374,7 +413,10 @@ describe("several steps", () => {
     expect([edit.vertices, edit.refinement()]).toEqual([coarse.positions.length / 3, undefined]);
     edit.apply(moment);
     expect(distance(doubles(edit), then)).toBeLessThan(1e-12);
-    const onAdded = document([{ ...moved, refine: true }, { method: "arap", handles: [{ select: { vertices: [edit.vertices - 1] }, move: {} }] }]);
+    const onAdded = document([
+      { ...moved, refine: true },
+      { method: "arap", handles: [{ select: { vertices: [edit.vertices - 1] }, move: {} }] },
+    ]);
     edit.apply(onAdded);
     expect(edit.run()).toMatchObject({ step: 1, converged: true });
   });
@@ -393,7 +435,14 @@ describe("a run", () => {
     const edit = pliant.open(shape);
     edit.apply(document([graph]));
     const controller = new AbortController();
-    const outcome = errorOf(() => edit.settle({ signal: controller.signal, onProgress: ({ iteration }) => { if (iteration === 2) controller.abort(); } }));
+    const outcome = errorOf(() =>
+      edit.settle({
+        signal: controller.signal,
+        onProgress: ({ iteration }) => {
+          if (iteration === 2) controller.abort();
+        },
+      }),
+    );
     expect((await outcome).code).toBe("aborted");
     expect(distance(doubles(edit), doubles(pliant.open(shape)))).toBeGreaterThan(0);
     expect(await edit.settle()).toMatchObject({ iterations: 0, converged: true });
@@ -402,8 +451,15 @@ describe("a run", () => {
 
   it("refuses limits that are none", async () => {
     const edit = pliant.open(shape);
-    for (const [options, says] of [[{ iterations: 0 }, "options.iterations"], [{ milliseconds: -1 }, "options.milliseconds"], [{ seconds: 1 }, "options.seconds"], [8, "options"]] as const) {
-      expect(await errorOf(() => edit.run(options as never))).toEqual({ code: "invalid-option", message: expect.stringContaining(says) });
+    for (const [options, says] of [
+      [{ iterations: 0 }, "options.iterations"],
+      [{ milliseconds: -1 }, "options.milliseconds"],
+      [{ seconds: 1 }, "options.seconds"],
+      [8, "options"],
+    ] as const) {
+      expect(await errorOf(() => edit.run(options as never))).toEqual({
+        code: "invalid-option", message: expect.stringContaining(says),
+      });
     }
     expect((await errorOf(() => pliant.open({} as never))).code).toBe("invalid-option");
     expect((await errorOf(() => edit.positions(new Float32Array(3)))).message).toContain("out");
@@ -427,7 +483,9 @@ describe("a place step", () => {
   const targets = hand.map((v) => [v, 0, 1]);
 
   it("puts vertices where it says, and the rest stays", async () => {
-    const { positions, report, state } = await pliant.edit(shape, document([{ method: "place", parts: [{ select: { vertices: hand }, targets }] }]) as never);
+    const { positions, report, state } = await pliant.edit(
+      shape, document([{ method: "place", parts: [{ select: { vertices: hand }, targets }] }]) as never,
+    );
     const expected = Float64Array.from(mesh.positions);
     hand.forEach((v, i) => expected.set(targets[i], 3 * v));
     expect(positions).toEqual(expected);
@@ -441,11 +499,18 @@ describe("a place step", () => {
     const deformer = pliant.deformer(shape, { method: "arap" });
     deformer.addHandle(hand).move(move);
     const { targets: expected } = deformer.state().handles[0];
-    expect(distance(hand.flatMap((v) => Array.from(doubles(edit).subarray(3 * v, 3 * v + 3))), expected.flat())).toBeLessThan(1e-12);
+    expect(
+      distance(hand.flatMap((v) => Array.from(doubles(edit).subarray(3 * v, 3 * v + 3))), expected.flat()),
+    ).toBeLessThan(1e-12);
   });
 
   it("has the normals of its surface", () => {
-    const edit = carriedOut(shape, document([{ method: "place", parts: [{ select: { all: true }, move: { rotate: { axis: [1, 0, 0], degrees: 180 } } }] }]));
+    const edit = carriedOut(
+      shape,
+      document([
+        { method: "place", parts: [{ select: { all: true }, move: { rotate: { axis: [1, 0, 0], degrees: 180 } } }] },
+      ]),
+    );
     const [now, before] = [edit.normals(), pliant.open(shape).normals()];
     expect(distance(now.map((x, i) => (i % 3 === 0 ? x : -x)), before)).toBeLessThan(1e-5);
     expect(distance(before, pliant.deformer(shape, { method: "arap" }).normals())).toBeLessThan(1e-5);
@@ -457,7 +522,9 @@ describe("a place step", () => {
     ["no goal", { select: { vertices: hand } }, "steps[0].parts[0]"],
     ["an unknown key", { select: { vertices: hand }, mvoe: {} }, "steps[0].parts[0].mvoe"],
   ])("is refused for %s", async (_, part, says) => {
-    const { code, message } = await errorOf(() => pliant.open(shape).apply(document([{ method: "place", parts: [part] }])));
+    const { code, message } = await errorOf(() =>
+      pliant.open(shape).apply(document([{ method: "place", parts: [part] }])),
+    );
     expect([code, message]).toEqual(["invalid-script", expect.stringContaining(says)]);
   });
 });
@@ -466,55 +533,74 @@ describe("key frames", () => {
   const frames = (method: string) => {
     const { step } = editCases[method] as unknown as { step: { handles: { move: { translate: number[] } }[] } };
     const at = (z: number) => [{ ...step, handles: [{ ...step.handles[0], move: { translate: [0, 0, z] } }] }];
-    return { at, script: { format: "pliant-edit", version: 1, frames: 4, keyframes: [{ time: 0, steps: at(0) }, { time: 3, steps: at(0.3) }] } };
+    return {
+      at,
+      script: {
+        format: "pliant-edit",
+        version: 1,
+        frames: 4,
+        keyframes: [{ time: 0, steps: at(0) }, { time: 3, steps: at(0.3) }],
+      },
+    };
   };
 
-  it.each(["embedded-graph", "edge-material", "arap"])("are documents in turn over one edit, each as if it were alone: %s", async (method) => {
-    const { at, script: animation } = frames(method);
-    const result = await pliant.edit(shape, animation as never);
-    for (const [frame, z] of [[3, 0.3], [1, 0.1]]) {
-      const { positions } = await pliant.edit(shape, document(at(z)) as never);
-      expect(distance(result.frames![frame], positions)).toBeLessThan(1e-12);
-    }
-    if (method !== "embedded-graph") expect(result.report.frames!.map(({ steps }) => steps[0].factorizations)).toEqual([1, 0, 0, 0]);
-  });
+  it.each(["embedded-graph", "edge-material", "arap"])(
+    "are documents in turn over one edit, each as if it were alone: %s",
+    async (method) => {
+      const { at, script: animation } = frames(method);
+      const result = await pliant.edit(shape, animation as never);
+      for (const [frame, z] of [[3, 0.3], [1, 0.1]]) {
+        const { positions } = await pliant.edit(shape, document(at(z)) as never);
+        expect(distance(result.frames![frame], positions)).toBeLessThan(1e-12);
+      }
+      if (method !== "embedded-graph") {
+        expect(result.report.frames!.map(({ steps }) => steps[0].factorizations)).toEqual([1, 0, 0, 0]);
+      }
+    },
+  );
 });
 
 describe.each([{ inline: false }, { inline: true }])("in the worker $inline", ({ inline }) => {
-  it.each(Object.entries(editCases))("gives the same numbers by promises: %s", async (_, { mesh: rest, step, moved, held }) => {
-    const library = await entries.worker.init({ inline });
-    const [there, here] = [await library.open(await library.shape(rest)), pliant.open(pliant.shape(rest))];
-    const entry = (z: number) => ({ handles: [{ name: "hand", move: { translate: [0, 0, z] } }], iterations: 2 });
-    const dragged = "handles" in step ? [[entry(0.3)], [entry(0.3), entry(0.4)]].map((drag) => document([{ ...moved, drag }])) : [];
-    for (const one of [document([step]), document([moved]), ...dragged, document([step, held]), document([held])]) {
-      here.apply(one);
-      here.run({ iterations: 3 });
-      here.run();
-      const [, , run, positions, normals] = await Promise.all([there.apply(one), there.run({ iterations: 3 }), there.run(), there.positions(), there.normals()]);
-      expect(run.converged).toBe(true);
-      expect(positions).toEqual(here.positions());
-      expect(normals).toEqual(here.normals());
-      const out = new Float64Array(rest.positions.length);
-      expect(await there.positions(out)).toBe(out);
-      expect(out).toEqual(doubles(here));
-    }
-    expect(await there.state()).toEqual(here.state());
-    const moment = await there.moment();
-    expect(timeless(moment)).toEqual(timeless(here.moment()));
-    await there.apply(document([moved]));
-    await there.settle({ onProgress: ({ steps }) => expect(steps).toBe(1) });
-    await there.apply(moment);
-    expect(distance(await there.positions(), here.positions())).toBeLessThan(1e-7);
-    expect((await there.report()).quality).toBeDefined();
-    expect(await there.sketch()).toEqual(here.sketch());
-    await there.reset();
-    const { code, message } = await errorOf(() => there.apply(document([step, { method: "clay" }])));
-    expect([code, message]).toEqual(["invalid-script", expect.stringContaining("steps[1].method")]);
-    await there.apply(document([step]));
-    expect((await there.run()).converged).toBe(true);
-    await there.dispose();
-    expect((await errorOf(() => there.run())).code).toBe("disposed");
-  });
+  it.each(Object.entries(editCases))(
+    "gives the same numbers by promises: %s",
+    async (_, { mesh: rest, step, moved, held }) => {
+      const library = await entries.worker.init({ inline });
+      const [there, here] = [await library.open(await library.shape(rest)), pliant.open(pliant.shape(rest))];
+      const entry = (z: number) => ({ handles: [{ name: "hand", move: { translate: [0, 0, z] } }], iterations: 2 });
+      const dragged =
+        "handles" in step ? [[entry(0.3)], [entry(0.3), entry(0.4)]].map((drag) => document([{ ...moved, drag }])) : [];
+      for (const one of [document([step]), document([moved]), ...dragged, document([step, held]), document([held])]) {
+        here.apply(one);
+        here.run({ iterations: 3 });
+        here.run();
+        const [, , run, positions, normals] = await Promise.all([
+          there.apply(one), there.run({ iterations: 3 }), there.run(), there.positions(), there.normals(),
+        ]);
+        expect(run.converged).toBe(true);
+        expect(positions).toEqual(here.positions());
+        expect(normals).toEqual(here.normals());
+        const out = new Float64Array(rest.positions.length);
+        expect(await there.positions(out)).toBe(out);
+        expect(out).toEqual(doubles(here));
+      }
+      expect(await there.state()).toEqual(here.state());
+      const moment = await there.moment();
+      expect(timeless(moment)).toEqual(timeless(here.moment()));
+      await there.apply(document([moved]));
+      await there.settle({ onProgress: ({ steps }) => expect(steps).toBe(1) });
+      await there.apply(moment);
+      expect(distance(await there.positions(), here.positions())).toBeLessThan(1e-7);
+      expect((await there.report()).quality).toBeDefined();
+      expect(await there.sketch()).toEqual(here.sketch());
+      await there.reset();
+      const { code, message } = await errorOf(() => there.apply(document([step, { method: "clay" }])));
+      expect([code, message]).toEqual(["invalid-script", expect.stringContaining("steps[1].method")]);
+      await there.apply(document([step]));
+      expect((await there.run()).converged).toBe(true);
+      await there.dispose();
+      expect((await errorOf(() => there.run())).code).toBe("disposed");
+    },
+  );
 });
 
 describe("a frame in the worker", () => {
@@ -522,12 +608,17 @@ describe("a frame in the worker", () => {
     const library = await entries.worker.init({ inline: false });
     const big = sheet(61);
     const there = await library.open(await library.shape(big));
-    const [fixed, select] = [[{ vertices: where(big.positions, (x) => x < 0.4) }], { vertices: where(big.positions, (x) => x > 0.6) }];
-    const at = (z: number) => document([{ method: "arap", fixed, handles: [{ name: "hand", select, move: { translate: [0, 0, z] } }] }]);
+    const [fixed, select] = [
+      [{ vertices: where(big.positions, (x) => x < 0.4) }], { vertices: where(big.positions, (x) => x > 0.6) },
+    ];
+    const at = (z: number) =>
+      document([{ method: "arap", fixed, handles: [{ name: "hand", select, move: { translate: [0, 0, z] } }] }]);
     await there.apply(at(0.1));
     const [sent, received] = [vi.spyOn(Worker.prototype, "postMessage"), vi.spyOn(Worker.prototype, "emit")];
     try {
-      const frame = await Promise.all([there.apply(at(0.2)), there.run({ iterations: 2 }), there.positions(), there.normals()]);
+      const frame = await Promise.all([
+        there.apply(at(0.2)), there.run({ iterations: 2 }), there.positions(), there.normals(),
+      ]);
       expect(frame[1].iterations).toBe(2);
       expect(sent).toHaveBeenCalledTimes(1);
       expect(received.mock.calls.filter(([event]) => event === "message")).toHaveLength(1);

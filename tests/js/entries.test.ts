@@ -38,7 +38,11 @@ describe("what is packed", () => {
   });
 
   it("holds no demo page, no sources and no tests", () => {
-    expect(readdirSync(installed).sort()).toEqual(["CHANGELOG.md", "LICENSE", "README.md", "dist", "package.json"].filter((name) => readdirSync(installed).includes(name)));
+    expect(readdirSync(installed).sort()).toEqual(
+      ["CHANGELOG.md", "LICENSE", "README.md", "dist", "package.json"].filter((name) =>
+        readdirSync(installed).includes(name),
+      ),
+    );
     expect(readdirSync(join(installed, "dist"))).not.toContain("demo");
   });
 
@@ -52,14 +56,18 @@ describe("what is packed", () => {
   });
 
   it("needs no eval, as a strict content-security policy asks", () => {
-    for (const file of files) expect(readFileSync(join(installed, file), "utf8"), file).not.toMatch(/\bnew Function\s*\(|\beval\s*\(/);
+    for (const file of files) {
+      expect(readFileSync(join(installed, file), "utf8"), file).not.toMatch(/\bnew Function\s*\(|\beval\s*\(/);
+    }
   });
 });
 
 describe("types", () => {
   it("fit between sources, tests and page", () => {
     const root = join(import.meta.dirname, "../..");
-    const { stdout } = spawnSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", root], { encoding: "utf8" });
+    const { stdout } = spawnSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", root], {
+      encoding: "utf8",
+    });
     expect(stdout).toBe("");
   });
 
@@ -77,10 +85,12 @@ describe("types", () => {
       const { energy, converged, terms } = deformer.step();
       const carried: Float64Array = deformer.transformPoints([1, 2, 3]);
       const out: Float64Array = deformer.positions(new Float64Array(9));
-      const script: EditScript = { format: "pliant-edit", version: 1, steps: [{ method: "embedded-graph", handles: [{ select: { all: true } }] }] };
+      const steps: EditScript["steps"] = [{ method: "embedded-graph", handles: [{ select: { all: true } }] }];
+      const script: EditScript = { format: "pliant-edit", version: 1, steps };
       const edited = await (await initInline()).edit(shape, script);
       const remote = await initWorker({ inline: true });
-      const far: Float32Array = await (await remote.deformer(await remote.shape({ positions: out }), { method: "embedded-graph" })).positions();
+      const there = await remote.deformer(await remote.shape({ positions: out }), { method: "embedded-graph" });
+      const far: Float32Array = await there.positions();
       export { energy, converged, terms, carried, edited, far, PliantError };
       // @ts-expect-error no such option
       pliant.deformer(shape, { method: "embedded-graph", nodes: 5 });
@@ -90,7 +100,9 @@ describe("types", () => {
     writeFileSync(join(consumer, "types.ts"), source);
     const tsc = join(import.meta.dirname, "../../node_modules/typescript/bin/tsc");
     for (const [module, moduleResolution] of [["esnext", "bundler"], ["nodenext", "nodenext"]]) {
-      const compilerOptions = { noEmit: true, strict: true, skipLibCheck: false, types: [], target: "es2022", module, moduleResolution };
+      const compilerOptions = {
+        noEmit: true, strict: true, skipLibCheck: false, types: [], target: "es2022", module, moduleResolution,
+      };
       writeFileSync(join(consumer, "tsconfig.json"), JSON.stringify({ compilerOptions, files: ["types.ts"] }));
       const { stdout } = spawnSync(process.execPath, [tsc, "-p", consumer], { encoding: "utf8" });
       expect(stdout).toBe("");
@@ -106,10 +118,16 @@ describe("init", () => {
 
   it.each(["wasmUrl", "wasmBinary", "wasmModule"])("takes %s, and starts anew after a failure", async (name) => {
     // A module of its own, not started yet.
-    const fresh = (await import(/* @vite-ignore */ `${pathToFileURL(join(installed, "dist/inline.js")).href}?${name}`)) as typeof entries.pliant;
+    const fresh = (await import(
+      /* @vite-ignore */ `${pathToFileURL(join(installed, "dist/inline.js")).href}?${name}`
+    )) as typeof entries.pliant;
     const file = join(installed, "dist/pliant.wasm");
     const bytes = readFileSync(file);
-    const bad = { wasmUrl: `${pathToFileURL(file).href}.gone`, wasmBinary: bytes.subarray(0, 100), wasmModule: new WebAssembly.Module(Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0)) };
+    const bad = {
+      wasmUrl: `${pathToFileURL(file).href}.gone`,
+      wasmBinary: bytes.subarray(0, 100),
+      wasmModule: new WebAssembly.Module(Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0)),
+    };
     const good = { wasmUrl: pathToFileURL(file), wasmBinary: bytes, wasmModule: new WebAssembly.Module(bytes) };
     const failure = await fresh.init({ [name]: bad[name as keyof typeof bad] }).catch((error: unknown) => error);
     expect(failure).toBeInstanceOf(fresh.PliantError);
@@ -131,7 +149,11 @@ describe("memory", () => {
         await new Promise((resolve) => setImmediate(resolve));
       }
       console.log("done");`;
-    expect(execFileSync(process.execPath, ["--expose-gc", "--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" })).toBe("done\n");
+    expect(
+      execFileSync(process.execPath, ["--expose-gc", "--input-type=module", "-e", program], {
+        cwd: consumer, encoding: "utf8",
+      }),
+    ).toBe("done\n");
   });
 
   it("that does not suffice for a shape is an error, and the library goes on", () => {
@@ -145,7 +167,9 @@ describe("memory", () => {
       do code = codeOf(() => held.push(pliant.shape({ positions }))); while (code === "none");
       for (const shape of held) shape.dispose();
       console.log(code, held.length > 5, (await init()).shape({ positions }).report.vertices);`;
-    const out = execFileSync(process.execPath, ["--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" });
+    const out = execFileSync(process.execPath, ["--input-type=module", "-e", program], {
+      cwd: consumer, encoding: "utf8",
+    });
     expect(out).toBe("too-large true 3000000\n");
   });
 });
@@ -163,10 +187,12 @@ describe("pliant/inline", () => {
   it("is a classic script too", async () => {
     const script = readFileSync(join(installed, "dist/pliant.global.js"), "utf8");
     const page = vm.createContext({
-      WebAssembly, Blob, Response, DecompressionStream, MessageChannel, TextDecoder, atob, performance, FinalizationRegistry, console,
+      WebAssembly, Blob, Response, DecompressionStream, MessageChannel, TextDecoder, atob, performance,
+      FinalizationRegistry, console,
     });
     vm.runInContext(script, page);
-    const program = `pliant.init().then((library) => library.shape({ positions: [0, 0, 0, 1, 0, 0], dimension: 3 }).report.vertices)`;
+    const shape = "library.shape({ positions: [0, 0, 0, 1, 0, 0], dimension: 3 })";
+    const program = `pliant.init().then((library) => ${shape}.report.vertices)`;
     expect(await vm.runInContext(program, page)).toBe(2);
   });
 });

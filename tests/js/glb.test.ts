@@ -11,28 +11,56 @@ const io = new WebIO();
 
 /** Moves everything by one vector: the answer is known in every coordinate system. */
 const shift = (by: number[]) => ({
-  format: "pliant-edit", version: 1,
-  steps: [{ method: "embedded-graph", options: { nodeCount: 20 }, handles: [{ select: { all: true }, move: { translate: by } }] }],
+  format: "pliant-edit",
+  version: 1,
+  steps: [
+    {
+      method: "embedded-graph",
+      options: { nodeCount: 20 },
+      handles: [{ select: { all: true }, move: { translate: by } }],
+    },
+  ],
 });
 
-/** Two instances of a textured sheet, one turned, doubled and shifted, and a triangle beside them in its own primitive. */
+/**
+ * Two instances of a textured sheet, one turned, doubled and shifted, and a triangle beside them in its own primitive.
+ */
 async function scene(): Promise<Uint8Array> {
   const document = new Document();
   const buffer = document.createBuffer();
   const { positions, triangles } = sheet(6);
-  const accessor = (type: "VEC2" | "VEC3" | "VEC4" | "SCALAR", values: Float32Array<ArrayBuffer> | Uint16Array<ArrayBuffer>) => document.createAccessor().setType(type).setArray(values).setBuffer(buffer);
+  const accessor = (
+    type: "VEC2" | "VEC3" | "VEC4" | "SCALAR", values: Float32Array<ArrayBuffer> | Uint16Array<ArrayBuffer>,
+  ) => document.createAccessor().setType(type).setArray(values).setBuffer(buffer);
   const vertices = positions.length / 3;
   const material = document.createMaterial("paint").setBaseColorFactor([1, 0, 0, 1]);
   const primitive = document.createPrimitive().setMaterial(material)
     .setIndices(accessor("SCALAR", Uint16Array.from(triangles)))
     .setAttribute("POSITION", accessor("VEC3", Float32Array.from(positions)))
-    .setAttribute("NORMAL", accessor("VEC3", Float32Array.from({ length: 3 * vertices }, (_, i) => Number(i % 3 === 2))))
-    .setAttribute("TANGENT", accessor("VEC4", Float32Array.from({ length: 4 * vertices }, (_, i) => Number(i % 4 === 0))))
-    .setAttribute("TEXCOORD_0", accessor("VEC2", Float32Array.from({ length: 2 * vertices }, (_, i) => positions[3 * (i >> 1) + (i & 1)])));
-  const plain = document.createPrimitive().setAttribute("POSITION", accessor("VEC3", Float32Array.of(0, 0, 3, 1, 0, 3, 0, 1, 3)));
+    .setAttribute(
+      "NORMAL", accessor("VEC3", Float32Array.from({ length: 3 * vertices }, (_, i) => Number(i % 3 === 2))),
+    )
+    .setAttribute(
+      "TANGENT", accessor("VEC4", Float32Array.from({ length: 4 * vertices }, (_, i) => Number(i % 4 === 0))),
+    )
+    .setAttribute(
+      "TEXCOORD_0",
+      accessor("VEC2", Float32Array.from({ length: 2 * vertices }, (_, i) => positions[3 * (i >> 1) + (i & 1)])),
+    );
+  const plain = document
+    .createPrimitive()
+    .setAttribute("POSITION", accessor("VEC3", Float32Array.of(0, 0, 3, 1, 0, 3, 0, 1, 3)));
   const mesh = document.createMesh("sheet").addPrimitive(primitive).addPrimitive(plain);
-  const turned = document.createNode("turned").setTranslation([5, 0, 0]).setRotation([0, 0, Math.SQRT1_2, Math.SQRT1_2]).setScale([2, 2, 2]).setMesh(mesh);
-  document.createScene().addChild(document.createNode("plain").setMesh(mesh)).addChild(document.createNode("parent").addChild(turned).setTranslation([0, 1, 0]));
+  const turned = document
+    .createNode("turned")
+    .setTranslation([5, 0, 0])
+    .setRotation([0, 0, Math.SQRT1_2, Math.SQRT1_2])
+    .setScale([2, 2, 2])
+    .setMesh(mesh);
+  document
+    .createScene()
+    .addChild(document.createNode("plain").setMesh(mesh))
+    .addChild(document.createNode("parent").addChild(turned).setTranslation([0, 1, 0]));
   return io.writeBinary(document);
 }
 
@@ -40,11 +68,17 @@ async function deformed(script: object): Promise<{ before: Document; after: Docu
   const bytes = await scene();
   folder.write("scene.glb", bytes);
   folder.write("edit.json", script);
-  expect(folder.run("deform", "scene.glb", "--script", "edit.json", "--out", "moved.glb")).toEqual({ status: 0, out: "", err: "" });
+  expect(folder.run("deform", "scene.glb", "--script", "edit.json", "--out", "moved.glb")).toEqual({
+    status: 0, out: "", err: "",
+  });
   return { before: await io.readBinary(bytes), after: await io.readBinary(folder.bytes("moved.glb")) };
 }
 
-const node = (document: Document, name: string) => document.getRoot().listNodes().find((found) => found.getName() === name)!;
+const node = (document: Document, name: string) =>
+  document
+    .getRoot()
+    .listNodes()
+    .find((found) => found.getName() === name)!;
 const attribute = (document: Document, name: string, primitive: number, semantic: string) =>
   Array.from<number>(node(document, name).getMesh()!.listPrimitives()[primitive].getAttribute(semantic)!.getArray()!);
 
@@ -61,7 +95,9 @@ describe("a .glb", () => {
   it("gets results in the coordinates of each mesh, its nodes as they were", async () => {
     const { before, after } = await deformed(shift([0, 2, 0]));
     for (const name of ["plain", "turned", "parent"]) {
-      for (const part of ["getTranslation", "getRotation", "getScale"] as const) expect(node(after, name)[part]()).toEqual(node(before, name)[part]());
+      for (const part of ["getTranslation", "getRotation", "getScale"] as const) {
+        expect(node(after, name)[part]()).toEqual(node(before, name)[part]());
+      }
     }
     for (const primitive of [0, 1]) {
       // The turned instance: 2 along y of the scene is 1 along x of the mesh.
@@ -85,7 +121,13 @@ describe("a .glb", () => {
       expect(b[1].getIndices()).toBeNull();
     }
     // Nothing left behind that no primitive uses.
-    const used = new Set(after.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives()).flatMap((p) => [...p.listAttributes(), p.getIndices()]));
+    const used = new Set(
+      after
+        .getRoot()
+        .listMeshes()
+        .flatMap((mesh) => mesh.listPrimitives())
+        .flatMap((p) => [...p.listAttributes(), p.getIndices()]),
+    );
     for (const accessor of after.getRoot().listAccessors()) expect(used).toContain(accessor);
   });
 
@@ -117,17 +159,36 @@ describe("a .glb", () => {
     expect(primitive.getAttribute("NORMAL")!.getElement(0, []).some((x) => x !== 0)).toBe(true);
     // And back: the seam is one vertex again to the solver, v is upwards again.
     folder.run("deform", "bar.glb", "--script", "edit.json", "--out", "back.obj");
-    const texcoords = (text: string) => new Set(text.split("\n").filter((line) => line.startsWith("vt ")).map((line) => line.split(" ").slice(1).map((x) => Number(x).toFixed(5)).join(" ")));
+    const texcoords = (text: string) =>
+      new Set(
+        text
+          .split("\n")
+          .filter((line) => line.startsWith("vt "))
+          .map((line) =>
+            line
+              .split(" ")
+              .slice(1)
+              .map((x) => Number(x).toFixed(5))
+              .join(" "),
+          ),
+      );
     expect(texcoords(folder.text("back.obj"))).toEqual(texcoords(barObj(6)));
   });
 
   it("shows keyframes as one animation", async () => {
     const steps = (z: number) => shift([0, 0, z]).steps;
     folder.write("bar.obj", barObj(6));
-    folder.write("edit.json", { format: "pliant-edit", version: 1, frames: 3, keyframes: [{ time: 1, steps: steps(0) }, { time: 2, steps: steps(2) }] });
+    folder.write("edit.json", {
+      format: "pliant-edit",
+      version: 1,
+      frames: 3,
+      keyframes: [{ time: 1, steps: steps(0) }, { time: 2, steps: steps(2) }],
+    });
     for (const shape of ["bar.obj", "scene.glb"]) {
       folder.write("scene.glb", await scene());
-      expect(folder.run("deform", shape, "--script", "edit.json", "--out", "moving.glb")).toEqual({ status: 0, out: "", err: "" });
+      expect(folder.run("deform", shape, "--script", "edit.json", "--out", "moving.glb")).toEqual({
+        status: 0, out: "", err: "",
+      });
       const document = await io.readBinary(folder.bytes("moving.glb"));
       const [animation] = document.getRoot().listAnimations();
       for (const channel of animation.listChannels()) {
@@ -135,7 +196,9 @@ describe("a .glb", () => {
         expect(Array.from(channel.getSampler()!.getInput()!.getArray()!)).toEqual([0, 0.5, 1]);
         expect(Array.from(channel.getSampler()!.getOutput()!.getArray()!)).toEqual([1, 0, 0, 0, 1, 0, 0, 0, 1]);
         for (const primitive of channel.getTargetNode()!.getMesh()!.listPrimitives()) {
-          const targets = primitive.listTargets().map((target) => Array.from<number>(target.getAttribute("POSITION")!.getArray()!));
+          const targets = primitive
+            .listTargets()
+            .map((target) => Array.from<number>(target.getAttribute("POSITION")!.getArray()!));
           expect(targets).toHaveLength(3);
           const along = targets.map((values) => values.reduce((sum, x) => sum + x, 0) / (values.length / 3));
           const unit = channel.getTargetNode()!.getName() === "turned" ? 2 : 1;

@@ -31,7 +31,11 @@ function scene(): Document {
     .setIndices(accessor("SCALAR", Uint16Array.from(mesh.triangles)))
     .setAttribute("POSITION", accessor("VEC3", Float32Array.from(mesh.positions)))
     .setAttribute("NORMAL", accessor("VEC3", Float32Array.from(mesh.positions, (_, i) => Number(i % 3 === 2))));
-  const node = made.createNode("sheet").setMesh(made.createMesh().addPrimitive(primitive)).setScale([0.5, 0.5, 0.5]).setTranslation([3, 0, 0]);
+  const node = made
+    .createNode("sheet")
+    .setMesh(made.createMesh().addPrimitive(primitive))
+    .setScale([0.5, 0.5, 0.5])
+    .setTranslation([3, 0, 0]);
   made.createScene().addChild(node);
   return made;
 }
@@ -39,9 +43,16 @@ function scene(): Document {
 async function draco(): Promise<Uint8Array> {
   const encoder = await createRequire(import.meta.url)("draco3dgltf").createEncoderModule();
   const made = scene();
-  made.createExtension(KHRDracoMeshCompression).setRequired(true)
-    .setEncoderOptions({ method: KHRDracoMeshCompression.EncoderMethod.EDGEBREAKER, quantizationBits: { POSITION: 16 } });
-  return new WebIO().registerExtensions([KHRDracoMeshCompression]).registerDependencies({ "draco3d.encoder": encoder }).writeBinary(made);
+  made
+    .createExtension(KHRDracoMeshCompression)
+    .setRequired(true)
+    .setEncoderOptions({
+      method: KHRDracoMeshCompression.EncoderMethod.EDGEBREAKER, quantizationBits: { POSITION: 16 },
+    });
+  return new WebIO()
+    .registerExtensions([KHRDracoMeshCompression])
+    .registerDependencies({ "draco3d.encoder": encoder })
+    .writeBinary(made);
 }
 
 async function meshopt(): Promise<Uint8Array> {
@@ -49,17 +60,32 @@ async function meshopt(): Promise<Uint8Array> {
   const made = scene();
   const [primitive] = made.getRoot().listMeshes()[0].listPrimitives();
   // As gltfpack does: coordinates in 16 bits, of a box that the node brings to its size.
-  primitive.getAttribute("POSITION")!.setArray(Int16Array.from(mesh.positions, (x) => Math.round((32767 * x) / 2))).setNormalized(true);
+  primitive
+    .getAttribute("POSITION")!
+    .setArray(Int16Array.from(mesh.positions, (x) => Math.round((32767 * x) / 2)))
+    .setNormalized(true);
   made.getRoot().listNodes()[0].setScale([1, 1, 1]);
   made.createExtension(KHRMeshQuantization).setRequired(true);
-  made.createExtension(EXTMeshoptCompression).setRequired(true).setEncoderOptions({ method: EXTMeshoptCompression.EncoderMethod.FILTER });
-  return new WebIO().registerExtensions([KHRMeshQuantization, EXTMeshoptCompression])
-    .registerDependencies({ "meshopt.encoder": MeshoptEncoder }).writeBinary(made);
+  made
+    .createExtension(EXTMeshoptCompression)
+    .setRequired(true)
+    .setEncoderOptions({ method: EXTMeshoptCompression.EncoderMethod.FILTER });
+  return new WebIO()
+    .registerExtensions([KHRMeshQuantization, EXTMeshoptCompression])
+    .registerDependencies({ "meshopt.encoder": MeshoptEncoder })
+    .writeBinary(made);
 }
 
 const script = {
-  format: "pliant-edit", version: 1,
-  steps: [{ method: "embedded-graph", options: { nodeCount: 20 }, handles: [{ select: { all: true }, move: { translate: [1, 2, 3] } }] }],
+  format: "pliant-edit",
+  version: 1,
+  steps: [
+    {
+      method: "embedded-graph",
+      options: { nodeCount: 20 },
+      handles: [{ select: { all: true }, move: { translate: [1, 2, 3] } }],
+    },
+  ],
 };
 
 describe.each([["draco", draco], ["meshopt", meshopt]])("a .glb compressed by %s", (name, make) => {
@@ -81,7 +107,9 @@ describe.each([["draco", draco], ["meshopt", meshopt]])("a .glb compressed by %s
   it("is deformed into a file that every reader takes", async () => {
     folder.write("in.glb", await make());
     folder.write("edit.json", script);
-    expect(folder.run("deform", "in.glb", "--script", "edit.json", "--out", "out.glb")).toEqual({ status: 0, out: "", err: "" });
+    expect(folder.run("deform", "in.glb", "--script", "edit.json", "--out", "out.glb")).toEqual({
+      status: 0, out: "", err: "",
+    });
     const bytes = folder.bytes("out.glb");
     expect(new TextDecoder().decode(bytes)).not.toContain(extension);
     const after = await plain.registerExtensions([KHRMeshQuantization]).readBinary(bytes as Uint8Array<ArrayBuffer>);

@@ -55,16 +55,20 @@ describe.each(places)("%s", (_, files) => {
     if (format === "glb") expect(back.texcoords.length).toBe(24);
     else expect([...back.faceOffsets]).toEqual([0, 5, 8]);
     const colorAt = (x: number, y: number) => {
-      const v = Array.from({ length: back.positions.length / 3 }, (_, i) => i).find((i) => back.positions[3 * i] === x && back.positions[3 * i + 1] === y)!;
+      const v = Array.from({ length: back.positions.length / 3 }, (_, i) => i).find(
+        (i) => back.positions[3 * i] === x && back.positions[3 * i + 1] === y,
+      )!;
       return [...back.colors.subarray(3 * v, 3 * v + 3)];
     };
     expect([colorAt(4, 0), colorAt(2, 1)]).toEqual([[0, 255, 0], [51, 102, 153]]);
   });
 
   it.each([
-    ["notes.txt", "hello", "invalid-option", /name is "notes.txt"; expected a name that ends in \.obj \.ply \.off \.stl \.xyz \.glb/],
+    ["notes.txt", "hello",
+      "invalid-option", /name is "notes.txt"; expected a name that ends in \.obj \.ply \.off \.stl \.xyz \.glb/],
     ["empty.obj", "# nothing\n", "parse-error", /^empty.obj: the file has no vertices$/],
-    ["broken.obj", "v 0 0 0\nv 1 0 zero\n", "parse-error", /^broken.obj: line 2: z is "zero"; expected a finite decimal number$/],
+    ["broken.obj", "v 0 0 0\nv 1 0 zero\n",
+      "parse-error", /^broken.obj: line 2: z is "zero"; expected a finite decimal number$/],
     ["thing.glb", "not a glb at all, but long enough", "parse-error", /^thing.glb: not a readable .glb/],
   ])("says what is wrong with %s", async (name, text, code, message) => {
     const error = await errorOf(() => files.read(encode(text), name));
@@ -78,14 +82,26 @@ describe.each(places)("%s", (_, files) => {
     ["a polygon of two", { positions: [0, 0, 0], faceVertices: [0, 0], faceOffsets: [0, 2] }, /faceOffsets\[1\] is 2/],
     ["too few colours", { positions: [0, 0, 0], colors: [1] }, /colors is an array of length 1; expected 3 numbers/],
   ])("refuses to write %s", async (_, shape, message) => {
-    expect(await errorOf(() => files.write(shape as never, "a.ply"))).toMatchObject({ code: "invalid-shape", message: expect.stringMatching(message) });
+    expect(await errorOf(() => files.write(shape as never, "a.ply"))).toMatchObject({
+      code: "invalid-shape", message: expect.stringMatching(message),
+    });
   });
 
   it("refuses another number of vertices than the file has", async () => {
     for (const name of ["a.obj", "a.glb"]) {
-      const source = await files.read(await files.write({ positions: new Float64Array(9), triangles: Uint32Array.of(0, 1, 2) }, name), name);
-      expect(await errorOf(() => files.write({ ...source, triangles: [], faceVertices: [], faceOffsets: [], positions: new Float64Array(6) } as never, name)))
-        .toMatchObject({ code: "invalid-shape", message: expect.stringMatching(/positions has 2 vertices; expected 3/) });
+      const source = await files.read(
+        await files.write({ positions: new Float64Array(9), triangles: Uint32Array.of(0, 1, 2) }, name), name,
+      );
+      expect(
+        await errorOf(() =>
+          files.write(
+            { ...source, triangles: [], faceVertices: [], faceOffsets: [], positions: new Float64Array(6) } as never,
+            name,
+          ),
+        ),
+      ).toMatchObject({
+        code: "invalid-shape", message: expect.stringMatching(/positions has 2 vertices; expected 3/),
+      });
     }
   });
 
@@ -98,7 +114,9 @@ describe.each(places)("%s", (_, files) => {
     expect(told).toEqual(told.toSorted((a, b) => a - b));
     expect(told.every((fraction) => fraction >= 0 && fraction < 1)).toBe(true);
     const controller = new AbortController();
-    const stopped = files.read(encode(lines), "points.obj", { signal: controller.signal, onProgress: () => controller.abort() });
+    const stopped = files.read(encode(lines), "points.obj", {
+      signal: controller.signal, onProgress: () => controller.abort(),
+    });
     expect(await errorOf(() => stopped)).toMatchObject({ code: "aborted" });
     expect((await files.read(encode("v 1 2 3\n"), "one.obj")).positions).toHaveLength(3);
   });
@@ -111,8 +129,16 @@ it("a file passes as a shape", async () => {
 });
 
 it("a picture on a .glb comes along, and goes with the shape into another", async () => {
-  const png = Uint8Array.from(atob("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="), (c) => c.charCodeAt(0));
-  const square = { positions: Float32Array.of(0, 0, 1, 0, 1, 1), dimension: 2 as const, triangles: Uint32Array.of(0, 1, 2), texcoords: Float64Array.of(0, 0, 1, 0, 1, 1) };
+  const png = Uint8Array.from(
+    atob("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="),
+    (c) => c.charCodeAt(0),
+  );
+  const square = {
+    positions: Float32Array.of(0, 0, 1, 0, 1, 1),
+    dimension: 2 as const,
+    triangles: Uint32Array.of(0, 1, 2),
+    texcoords: Float64Array.of(0, 0, 1, 0, 1, 1),
+  };
   const glb = await io.write({ ...square, texture: new Blob([png], { type: "image/png" }) }, "picture.glb");
   const file = await io.read(glb, "picture.glb");
   expect(file.texture?.type).toBe("image/png");

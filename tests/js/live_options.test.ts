@@ -14,19 +14,36 @@ describe("options while a handle is held", () => {
 
   it("cost what is promised: nothing for p, gravity and targets, one factorisation for stiffness", async () => {
     const hand = [{ name: "hand", move: { translate: [0, 0, 0.2] } }];
-    expect(await costs(step, [
-      { options: { pStretch: 0.5 } }, { options: { pBend: 0.2 } }, { options: { gravity: [0, 0, -1] } }, { handles: hand },
-      { options: { stretch: 2 } }, { options: { lambda: 1e-4 } }, { options: { bend: 0.5 } }, { options: { field: { axis: [1, 0, 0] } } },
-      { options: {} }, { options: { lambda: 1e-4, pStretch: 1 }, handles: hand },
-    ])).toEqual([[0, 0], [0, 0], [0, 0], [0, 0], [1, 0], [1, 0], [1, 0], [1, 0], [0, 0], [0, 0]]);
-    expect(await costs({ ...step, method: "arap" }, [
-      { handles: hand }, { options: { energy: "spokes-and-rims" } }, { options: { constraintWeight: 2 } }, { options: { constraintWeight: 3 } },
-      { options: { constraintWeight: null } }, { options: { smoothness: 0.1 } }, { options: { smoothness: 0.2 } },
-    ])).toEqual([[0, 0], [1, 0], [1, 1], [1, 0], [1, 1], [1, 1], [1, 0]]);
+    expect(
+      await costs(step, [
+        { options: { pStretch: 0.5 } },
+        { options: { pBend: 0.2 } },
+        { options: { gravity: [0, 0, -1] } },
+        { handles: hand },
+        { options: { stretch: 2 } },
+        { options: { lambda: 1e-4 } },
+        { options: { bend: 0.5 } },
+        { options: { field: { axis: [1, 0, 0] } } },
+        { options: {} },
+        { options: { lambda: 1e-4, pStretch: 1 }, handles: hand },
+      ]),
+    ).toEqual([[0, 0], [0, 0], [0, 0], [0, 0], [1, 0], [1, 0], [1, 0], [1, 0], [0, 0], [0, 0]]);
+    expect(
+      await costs({ ...step, method: "arap" }, [
+        { handles: hand },
+        { options: { energy: "spokes-and-rims" } },
+        { options: { constraintWeight: 2 } },
+        { options: { constraintWeight: 3 } },
+        { options: { constraintWeight: null } },
+        { options: { smoothness: 0.1 } },
+        { options: { smoothness: 0.2 } },
+      ]),
+    ).toEqual([[0, 0], [1, 0], [1, 1], [1, 0], [1, 1], [1, 1], [1, 0]]);
   });
 
   it.each([
-    ["edge-material", { stretch: 4, bend: 2, pStretch: 0.8, field: { axis: [1, 0, 0] } }, { stretch: 1 }, { lambda: 0.01, pStretch: 0.5, field: null, gravity: [0, 0, -1] }],
+    ["edge-material", { stretch: 4, bend: 2, pStretch: 0.8, field: { axis: [1, 0, 0] } },
+      { stretch: 1 }, { lambda: 0.01, pStretch: 0.5, field: null, gravity: [0, 0, -1] }],
     ["arap", { energy: "spokes" }, { constraintWeight: 3 }, { energy: "spokes-and-rims", smoothness: 0.05 }],
   ])("of %s end where a new deformer rests", async (method, first, ...changes) => {
     const start = (options: object) => {
@@ -40,7 +57,9 @@ describe("options while a handle is held", () => {
     for (const change of changes) live.setOptions(change as never);
     const { stretch: _, ...all } = Object.assign({}, first, ...changes); // lambda came last
     const fresh = start(all);
-    const ends = await Promise.all([live, fresh].map((deformer) => deformer.solve({ maxIterations: 2000, tolerance: 1e-12 })));
+    const ends = await Promise.all(
+      [live, fresh].map((deformer) => deformer.solve({ maxIterations: 2000, tolerance: 1e-12 })),
+    );
     expect(ends[0].energy / ends[1].energy).toBeCloseTo(1, 6);
     expect(live.energy().weights).toEqual(fresh.energy().weights);
   });
@@ -76,8 +95,14 @@ describe("options while a handle is held", () => {
 
   it("are refused in a script at their place", async () => {
     const drag = (options: object) => errorOf(() => edit(mesh, { ...step, drag: [{}, { options }] }));
-    expect(await drag({ gravity: [0, 1] })).toMatchObject({ code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options.gravity") });
-    expect(await drag({ nodeCount: 3 })).toMatchObject({ code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options.nodeCount") });
-    expect(await drag({ bend: 0, stretch: 0 })).toMatchObject({ code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options") });
+    expect(await drag({ gravity: [0, 1] })).toMatchObject({
+      code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options.gravity"),
+    });
+    expect(await drag({ nodeCount: 3 })).toMatchObject({
+      code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options.nodeCount"),
+    });
+    expect(await drag({ bend: 0, stretch: 0 })).toMatchObject({
+      code: "invalid-script", message: expect.stringContaining("steps[0].drag[1].options"),
+    });
   });
 });

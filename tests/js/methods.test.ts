@@ -34,37 +34,52 @@ function otherValues({ type, default: usual, min, max, choices, step }: Option):
   return compound[type]!;
 }
 
-const rows = pliant.methods.flatMap((method) => Object.entries(method.options).map(([name, option]) => ({ method, name, option })));
+const rows = pliant.methods.flatMap((method) =>
+  Object.entries(method.options).map(([name, option]) => ({ method, name, option })),
+);
 
 describe("pliant.methods", () => {
-  it.each(pliant.methods.map((method) => [method.name, method] as const))("tells the defaults of %s as C++ has them", (name, { options }) => {
-    const inUse = read(build(name, {}));
-    const told = Object.fromEntries(Object.entries(options).filter(([, option]) => option.default !== null).map(([key, option]) => [key, option.default]));
-    expect(inUse).toEqual(told);
-  });
+  it.each(pliant.methods.map((method) => [method.name, method] as const))(
+    "tells the defaults of %s as C++ has them",
+    (name, { options }) => {
+      const inUse = read(build(name, {}));
+      const told = Object.fromEntries(
+        Object.entries(options)
+          .filter(([, option]) => option.default !== null)
+          .map(([key, option]) => [key, option.default]),
+      );
+      expect(inUse).toEqual(told);
+    },
+  );
 
-  it.each(rows.map((row) => [row.method.name, row.name, row] as const))("%s takes %s to C++ and back, whatever its value", (method, name, { option }) => {
-    for (const value of otherValues(option)) {
-      const options = read(build(method, { [name]: value }));
-      expect(options[name]).toEqual(value);
-      expect(options[name]).not.toEqual(option.default);
-      expect(read(build(method, options))).toEqual(options);
-    }
-  });
+  it.each(rows.map((row) => [row.method.name, row.name, row] as const))(
+    "%s takes %s to C++ and back, whatever its value",
+    (method, name, { option }) => {
+      for (const value of otherValues(option)) {
+        const options = read(build(method, { [name]: value }));
+        expect(options[name]).toEqual(value);
+        expect(options[name]).not.toEqual(option.default);
+        expect(read(build(method, options))).toEqual(options);
+      }
+    },
+  );
 
-  it.each(rows.filter(({ option }) => option.live).map((row) => [row.method.name, row.name, row] as const))("%s changes %s alone while it lives, and nothing for a bad one", (method, name, { option }) => {
-    for (const value of otherValues(option)) {
-      const deformer = build(method, {});
-      const before = read(deformer);
-      deformer.setOptions({ [name]: value } as never);
-      const after = read(deformer);
-      expect(after[name]).toEqual(value);
-      const stays = Object.keys(before).filter((key) => key !== name && key in after);
-      for (const key of stays) expect(after[key]).toEqual(before[key]);
-      expect(() => deformer.setOptions({ [name]: Number.NaN } as never)).toThrow(`options.${name}`);
-      expect(read(deformer)).toEqual(after);
-    }
-  });
+  it.each(rows.filter(({ option }) => option.live).map((row) => [row.method.name, row.name, row] as const))(
+    "%s changes %s alone while it lives, and nothing for a bad one",
+    (method, name, { option }) => {
+      for (const value of otherValues(option)) {
+        const deformer = build(method, {});
+        const before = read(deformer);
+        deformer.setOptions({ [name]: value } as never);
+        const after = read(deformer);
+        expect(after[name]).toEqual(value);
+        const stays = Object.keys(before).filter((key) => key !== name && key in after);
+        for (const key of stays) expect(after[key]).toEqual(before[key]);
+        expect(() => deformer.setOptions({ [name]: Number.NaN } as never)).toThrow(`options.${name}`);
+        expect(read(deformer)).toEqual(after);
+      }
+    },
+  );
 
   it("gives back what it said before where an option of its own stands for another", () => {
     const material = build("edge-material", { stretch: 3 });
@@ -120,20 +135,25 @@ describe("the README's words about methods", () => {
     return value === null ? "" : typeof value === "string" ? ` \`"${value}"\`` : ` ${value}`;
   };
 
-  it.each(pliant.methods.map((method) => [method.name, method] as const))("name %s in the table and all its options with their defaults", (name, { options, paper }) => {
-    const row = text.split("\n").find((line) => line.startsWith(`| \`${name}\` |`));
-    expect(row).toContain("| done");
-    for (const author of paper.split(":")[0]!.split(", ")) expect(row).toContain(author);
-    const start = text.indexOf(`Options of \`${name}\``);
-    expect(start).toBeGreaterThan(0);
-    const paragraph = text.slice(start, text.indexOf("\n\n", start)).replaceAll("\n", " ");
-    for (const [key, { default: usual, choices }] of Object.entries(options)) {
-      expect(paragraph).toContain(`\`${key}\`${words(usual)}`);
-      for (const choice of choices ?? []) expect(paragraph).toContain(`"${choice}"`);
-    }
-    const known = new Set(Object.keys(options));
-    for (const [, word] of paragraph.matchAll(/`([a-z]+[A-Z]\w*)`/g)) expect(known, `${word} of ${name}`).toContain(word);
-  });
+  it.each(pliant.methods.map((method) => [method.name, method] as const))(
+    "name %s in the table and all its options with their defaults",
+    (name, { options, paper }) => {
+      const row = text.split("\n").find((line) => line.startsWith(`| \`${name}\` |`));
+      expect(row).toContain("| done");
+      for (const author of paper.split(":")[0]!.split(", ")) expect(row).toContain(author);
+      const start = text.indexOf(`Options of \`${name}\``);
+      expect(start).toBeGreaterThan(0);
+      const paragraph = text.slice(start, text.indexOf("\n\n", start)).replaceAll("\n", " ");
+      for (const [key, { default: usual, choices }] of Object.entries(options)) {
+        expect(paragraph).toContain(`\`${key}\`${words(usual)}`);
+        for (const choice of choices ?? []) expect(paragraph).toContain(`"${choice}"`);
+      }
+      const known = new Set(Object.keys(options));
+      for (const [, word] of paragraph.matchAll(/`([a-z]+[A-Z]\w*)`/g)) {
+        expect(known, `${word} of ${name}`).toContain(word);
+      }
+    },
+  );
 
   it("have a row only for methods that are there or planned", () => {
     const table = [...text.matchAll(/^\| `([a-z-]+)` \|.*\| (\w+)/gm)].map(([, name, state]) => ({ name, state }));

@@ -27,7 +27,9 @@ const cases: Case[] = [
     mesh: torus(40, 16),
     options: { nodeCount: 80, solver: "gauss-newton" },
     fixed: [half([-1, 0, 0], 1)],
-    handles: [{ select: half([1, 0, 0], 1.2), move: { translate: [0, 0.2, 0.5], rotate: { axis: [0, 1, 0], degrees: 50 } } }],
+    handles: [
+      { select: half([1, 0, 0], 1.2), move: { translate: [0, 0.2, 0.5], rotate: { axis: [0, 1, 0], degrees: 50 } } },
+    ],
   },
   {
     name: "points, six neighbours, other weights, two handles",
@@ -56,7 +58,9 @@ describe.each(cases)("$name", ({ mesh, options, fixed, handles }) => {
   const edit = pliant.edit(shape, script as never);
   const solved = async () => {
     const { positions, report, state } = await edit;
-    return { positions, step: report.steps[0], quality: report.quality, state: JSON.parse(JSON.stringify(state)) as GraphState };
+    return {
+      positions, step: report.steps[0], quality: report.quality, state: JSON.parse(JSON.stringify(state)) as GraphState,
+    };
   };
 
   it("has the weights of eq. 4", async () => {
@@ -73,7 +77,9 @@ describe.each(cases)("$name", ({ mesh, options, fixed, handles }) => {
 
   it("has an edge between nodes that influence a common vertex, and no other", async () => {
     const { state } = await solved();
-    expect(new Set(state.edges.map(([j, k]) => `${Math.min(j, k)} ${Math.max(j, k)}`))).toEqual(edges(state, mesh.positions));
+    expect(new Set(state.edges.map(([j, k]) => `${Math.min(j, k)} ${Math.max(j, k)}`))).toEqual(
+      edges(state, mesh.positions),
+    );
   });
 
   it("has its energies taken with a mean edge of one", async () => {
@@ -100,7 +106,10 @@ describe.each(cases)("$name", ({ mesh, options, fixed, handles }) => {
     for (const name of ["rotation", "regularization", "constraint"] as const) {
       expect(step.energy[name] / terms[name], name).toBeCloseTo(1, 6);
     }
-    const total = weighted.rotation * terms.rotation + weighted.regularization * terms.regularization + weighted.constraint * terms.constraint;
+    const total =
+      weighted.rotation * terms.rotation +
+      weighted.regularization * terms.regularization +
+      weighted.constraint * terms.constraint;
     expect(step.energy.total / total).toBeCloseTo(1, 6);
     expect(step.iterations.at(-1)!.energy).toBe(step.energy.total);
   });

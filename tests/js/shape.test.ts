@@ -8,13 +8,16 @@ describe("the report", () => {
   it("counts a closed mesh by Euler's formula", () => {
     const { positions, triangles } = torus(12, 8);
     expect(pliant.shape({ positions, triangles }).report).toEqual({
-      vertices: 96, triangles: 192, components: 1, boundaryEdges: 0, nonManifoldEdges: 0, degenerateTriangles: 0, weldedVertices: 0,
+      vertices: 96, triangles: 192, components: 1, boundaryEdges: 0, nonManifoldEdges: 0, degenerateTriangles: 0,
+      weldedVertices: 0,
     });
   });
 
   it("counts the border of an open one", () => {
     const { positions, triangles } = sheet(5);
-    expect(pliant.shape({ positions, triangles }).report).toMatchObject({ triangles: 32, boundaryEdges: 16, components: 1 });
+    expect(pliant.shape({ positions, triangles }).report).toMatchObject({
+      triangles: 32, boundaryEdges: 16, components: 1,
+    });
   });
 
   it("sees two triangles of a soup that touch as one component", () => {
@@ -34,13 +37,17 @@ describe("the report", () => {
   it("takes every kind of array", () => {
     const { positions, triangles } = sheet(4);
     const kinds = [Float32Array.from(positions), positions, Array.from(positions)];
-    const reports = kinds.map((kind) => pliant.shape({ positions: kind, triangles: Uint16Array.from(triangles) }).report);
+    const reports = kinds.map(
+      (kind) => pliant.shape({ positions: kind, triangles: Uint16Array.from(triangles) }).report,
+    );
     expect(new Set(reports.map((report) => JSON.stringify(report))).size).toBe(1);
   });
 
   it("takes points and pictures", () => {
     expect(pliant.shape({ positions: cloud(50) }).report).toMatchObject({ vertices: 50, triangles: 0, components: 50 });
-    expect(pliant.shape({ ...picture(4), dimension: 2 })).toMatchObject({ dimension: 2, report: { vertices: 16, triangles: 18 } });
+    expect(pliant.shape({ ...picture(4), dimension: 2 })).toMatchObject({
+      dimension: 2, report: { vertices: 16, triangles: 18 },
+    });
   });
 
   it("cannot be changed", () => {
@@ -59,7 +66,8 @@ describe("selections", () => {
 
   it.each([
     ["vertices, ascending", { vertices: new Set([7, 3, 5]) }, [3, 5, 7]],
-    ["a box", { box: { min: [0.2, 0.2, -1], max: [0.6, 0.9, 1] } }, where(positions, (x, y) => x >= 0.2 && x <= 0.6 && y >= 0.2 && y <= 0.9)],
+    ["a box", { box: { min: [0.2, 0.2, -1], max: [0.6, 0.9, 1] } },
+      where(positions, (x, y) => x >= 0.2 && x <= 0.6 && y >= 0.2 && y <= 0.9)],
     ["a sphere", near, where(positions, isNear)],
     ["a half space, its normal as it is", left, where(positions, isLeft)],
     ["all", { all: true as const }, where(positions, () => true)],

@@ -9,7 +9,8 @@ const shape = pliant.shape(mesh);
 const n = mesh.positions.length / 3;
 const make = (more: object = {}) => pliant.sketch(shape, { camera, reference: straight, ...more });
 const doubles = (sketch: ReturnType<typeof make>) => sketch.positions(new Float64Array(3 * sketch.vertices));
-const difference = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
+const difference = (a: ArrayLike<number>, b: ArrayLike<number>) =>
+  Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
 const vertex = (positions: ArrayLike<number>, v: number) => [0, 1, 2].map((k) => positions[3 * v + k]);
 
 type Vector = readonly number[];
@@ -31,9 +32,14 @@ function along(curve: number[][], s: number): number[] {
   return curve[i].map((x, k) => x + (at - i) * (curve[i + 1][k] - x));
 }
 
-/** Where the state says that a vertex is bent to: carried with the point of the curve nearest to it, turned by its angle. */
+/**
+ * Where the state says that a vertex is bent to: carried with the point of the curve nearest to it, turned by its
+ * angle.
+ */
 function bent(state: ReturnType<ReturnType<typeof make>["state"]>, v: number, rest: Vector): number[] {
-  const arm = turned(minus(rest, along(state.reference, state.s[v])), (state.normals as number[][])[0], state.angles[v]);
+  const arm = turned(
+    minus(rest, along(state.reference, state.s[v])), (state.normals as number[][])[0], state.angles[v],
+  );
   return along(state.target, state.s[v]).map((x, k) => x + arm[k]);
 }
 
@@ -51,10 +57,14 @@ describe("a region", () => {
 
   it("has parameters from 0 to 1 along the stroke", () => {
     const s = make({ smooth: false }).parameters();
-    for (let v = 0; v < n; ++v) expect(s[v]).toBeCloseTo(Math.min(Math.max((mesh.positions[3 * v + 2] - 0.2) / 0.6, 0), 1), 1);
+    for (let v = 0; v < n; ++v) {
+      expect(s[v]).toBeCloseTo(Math.min(Math.max((mesh.positions[3 * v + 2] - 0.2) / 0.6, 0), 1), 1);
+    }
   });
 
-  it.each([[0.35, 0], [0.65, 2]])("is cut by partitions: a line at %s leaves what lies beyond with label %s", (height, label) => {
+  it.each([
+    [0.35, 0], [0.65, 2],
+  ])("is cut by partitions: a line at %s leaves what lies beyond with label %s", (height, label) => {
     const labels = make({ partitions: [[pixel(-0.2, height), pixel(0.2, height)]] }).labels();
     for (let v = 0; v < n; ++v) {
       const beyond = (mesh.positions[3 * v + 2] - height) * (label === 0 ? -1 : 1);
@@ -108,7 +118,9 @@ describe("a stroke that leaves the shape at once", () => {
   it("is refused, and the limb it began on has a stroke of its own", () => {
     const tip = pixel(0, 0.95);
     const away = Array.from({ length: 40 }, (_, i) => [tip[0] + 10 * i, tip[1]]);
-    expect(() => make({ reference: away })).toThrow(/^reference leaves the shape after \d+ % of its length; expected a stroke along a limb/);
+    expect(() => make({ reference: away })).toThrow(
+      /^reference leaves the shape after \d+ % of its length; expected a stroke along a limb/,
+    );
     const stroke = pliant.limbStroke(shape, { camera, pixel: tip });
     expect(stroke.at(-1)![1]).toBeLessThan(stroke[0][1] - 100);
     expect(Math.max(...stroke.map(([x]) => Math.abs(x - tip[0])))).toBeLessThan(5);
@@ -143,14 +155,18 @@ describe("a bend", () => {
     sketch.bend(arc);
     const { labels, s, angles, normals } = sketch.state();
     const left = Math.sign(dot(cross([0, 0, 1], [-1, 0, 0]), (normals as number[][])[0]));
-    for (let v = 0; v < n; ++v) if (labels[v] === 1 && s[v] > 0.05 && s[v] < 0.95) expect(left * angles[v]).toBeCloseTo((s[v] * Math.PI) / 2, 1);
+    for (let v = 0; v < n; ++v) {
+      if (labels[v] === 1 && s[v] > 0.05 && s[v] < 0.95) expect(left * angles[v]).toBeCloseTo((s[v] * Math.PI) / 2, 1);
+    }
   });
 
   it("keeps the length of the limb while it is drawn, and can be taken back", () => {
     const sketch = make();
     sketch.bend(arc.slice(0, 30), { unfinished: true });
     const target = sketch.target();
-    const length = Array.from({ length: target.length / 3 - 1 }, (_, i) => Math.hypot(...minus(vertex(target, i + 1), vertex(target, i)))).reduce((a, b) => a + b);
+    const length = Array.from({ length: target.length / 3 - 1 }, (_, i) =>
+      Math.hypot(...minus(vertex(target, i + 1), vertex(target, i))),
+    ).reduce((a, b) => a + b);
     expect(length).toBeCloseTo(0.6, 2);
     sketch.unbend();
     expect(doubles(sketch)).toEqual(mesh.positions);
@@ -175,7 +191,9 @@ describe("twist and scale", () => {
     const sketch = make({ smooth: false });
     sketch.twist(120);
     const positions = doubles(sketch);
-    ofRegion((v, s, rest) => expect(difference(vertex(positions, v), turned(rest, [0, 0, 1], (s * 2 * Math.PI) / 3))).toBeLessThan(1e-6));
+    ofRegion((v, s, rest) =>
+      expect(difference(vertex(positions, v), turned(rest, [0, 0, 1], (s * 2 * Math.PI) / 3))).toBeLessThan(1e-6),
+    );
     const end = vertex(mesh.positions, n - 3);
     expect(difference(vertex(positions, n - 3), turned(end, [0, 0, 1], (2 * Math.PI) / 3))).toBeLessThan(1e-6);
   });
@@ -185,14 +203,20 @@ describe("twist and scale", () => {
     sketch.twist(90);
     sketch.twistSpeed([[0, 0], [0.5, 1], [1, 1]]);
     const positions = doubles(sketch);
-    ofRegion((v, s, rest) => expect(difference(vertex(positions, v), turned(rest, [0, 0, 1], (Math.min(2 * s, 1) * Math.PI) / 2))).toBeLessThan(1e-6));
+    ofRegion((v, s, rest) =>
+      expect(
+        difference(vertex(positions, v), turned(rest, [0, 0, 1], (Math.min(2 * s, 1) * Math.PI) / 2)),
+      ).toBeLessThan(1e-6),
+    );
   });
 
   it("scales sections by F(s)", () => {
     const sketch = make({ smooth: false });
     sketch.scale([[0, 1], [0.5, 3], [1, 1]]);
     const positions = doubles(sketch);
-    ofRegion((v, s) => expect(Math.hypot(positions[3 * v], positions[3 * v + 1]) / radius).toBeCloseTo(1 + 4 * Math.min(s, 1 - s), 6));
+    ofRegion((v, s) =>
+      expect(Math.hypot(positions[3 * v], positions[3 * v + 1]) / radius).toBeCloseTo(1 + 4 * Math.min(s, 1 - s), 6),
+    );
   });
 });
 
@@ -291,7 +315,9 @@ describe("refinement", () => {
   it("gives as many results as vertices, follows later poses, and can be taken back", () => {
     const { sketch, parents } = refined();
     const all = 3 * sketch.vertices;
-    for (const result of [sketch.positions(), sketch.normals(), sketch.restPositions()]) expect(result).toHaveLength(all);
+    for (const result of [sketch.positions(), sketch.normals(), sketch.restPositions()]) {
+      expect(result).toHaveLength(all);
+    }
     expect(sketch.parameters()).toHaveLength(sketch.vertices);
     sketch.twist(60);
     sketch.reset();
@@ -315,8 +341,15 @@ describe("a seed", () => {
     expect(Array.from(labels.keys()).filter((v) => labels[v] >= 2).every((v) => vertices.includes(v))).toBe(true);
     const spread = Array.from(vertices).filter((v) => labels[v] === 1);
     expect(spread.length).toBeGreaterThan(4);
-    spread.forEach((a, i) => spread.slice(i + 1).forEach((b) =>
-      expect(Math.hypot(...minus(vertex(mesh.positions, a), vertex(mesh.positions, b)))).toBeGreaterThan(0.1 * shape.diagonal * (1 - 1e-9))));
+    spread.forEach((a, i) =>
+      spread
+        .slice(i + 1)
+        .forEach((b) =>
+          expect(Math.hypot(...minus(vertex(mesh.positions, a), vertex(mesh.positions, b)))).toBeGreaterThan(
+            0.1 * shape.diagonal * (1 - 1e-9),
+          ),
+        ),
+    );
     vertices.forEach((v, i) => expect(vertex(targets, i)).toEqual(vertex(positions, v)));
     const deformer = pliant.deformer(shape, { method: "embedded-graph", nodeCount: 80 });
     deformer.setFixed(fixed);

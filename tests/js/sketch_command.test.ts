@@ -15,7 +15,10 @@ const bend = { method: "sketch", camera, reference: straight, bend: { target: ar
 const stretch = { ...bend, bend: { target: longArc }, refine: true };
 const edit = (...steps: object[]) => script(steps);
 
-/** The limb as quads and two caps of `around` corners; u runs once around it, v along, and a seam lies where u is 0 and 1. */
+/**
+ * The limb as quads and two caps of `around` corners; u runs once around it, v along, and a seam lies where u is 0 and
+ * 1.
+ */
 function quads(): string {
   const { positions } = limb(around, rings);
   const lines = ["mtllib skin.mtl"];
@@ -23,10 +26,14 @@ function quads(): string {
   for (let j = 0; j < rings; ++j) for (let i = 0; i <= around; ++i) lines.push(`vt ${i / around} ${j / (rings - 1)}`);
   const corner = (i: number, j: number) => `${j * around + (i % around) + 1}/${j * (around + 1) + i + 1}`;
   for (let j = 0; j + 1 < rings; ++j) {
-    for (let i = 0; i < around; ++i) lines.push(`f ${corner(i, j)} ${corner(i + 1, j)} ${corner(i + 1, j + 1)} ${corner(i, j + 1)}`);
+    for (let i = 0; i < around; ++i) {
+      lines.push(`f ${corner(i, j)} ${corner(i + 1, j)} ${corner(i + 1, j + 1)} ${corner(i, j + 1)}`);
+    }
   }
   const cap = Array.from({ length: around }, (_, i) => i);
-  lines.push(`f ${cap.map((i) => corner(around - 1 - i, 0)).join(" ")}`, `f ${cap.map((i) => corner(i, rings - 1)).join(" ")}`);
+  lines.push(
+    `f ${cap.map((i) => corner(around - 1 - i, 0)).join(" ")}`, `f ${cap.map((i) => corner(i, rings - 1)).join(" ")}`,
+  );
   return `${lines.join("\n")}\n`;
 }
 
@@ -37,23 +44,36 @@ interface Face {
 
 function facesOf(obj: string): Face[] {
   const lines = obj.split("\n");
-  const texcoords = lines.filter((line) => line.startsWith("vt ")).map((line) => line.split(" ").slice(1, 3).map(Number));
-  return lines.filter((line) => line.startsWith("f ")).map((line) => {
-    const corners = line.trim().split(" ").slice(1).map((corner) => corner.split("/").map(Number));
-    return { vertices: corners.map(([v]) => v - 1), uv: corners.map(([, t]) => texcoords[t - 1]) };
-  });
+  const texcoords = lines
+    .filter((line) => line.startsWith("vt "))
+    .map((line) => line.split(" ").slice(1, 3).map(Number));
+  return lines
+    .filter((line) => line.startsWith("f "))
+    .map((line) => {
+      const corners = line
+        .trim()
+        .split(" ")
+        .slice(1)
+        .map((corner) => corner.split("/").map(Number));
+      return { vertices: corners.map(([v]) => v - 1), uv: corners.map(([, t]) => texcoords[t - 1]) };
+    });
 }
 
 const run = (script: object, out = "out.obj", ...more: string[]) => {
   folder.write("edit.json", script);
-  return folder.run("deform", "limb.obj", "--script", "edit.json", "--out", out, "--state", "state.json", "--report", "report.json", ...more);
+  return folder.run(
+    "deform", "limb.obj", "--script", "edit.json", "--out", out, "--state", "state.json", "--report", "report.json",
+    ...more,
+  );
 };
 
 beforeAll(() => void folder.write("limb.obj", quads()));
 
 /** The limb of the file for the library: polygons as the state's results need no faces, ids are the same. */
 const positions = objPositions(quads());
-const triangles = facesOf(quads()).flatMap(({ vertices }) => vertices.slice(2).flatMap((v, i) => [vertices[0], vertices[i + 1], v]));
+const triangles = facesOf(quads()).flatMap(({ vertices }) =>
+  vertices.slice(2).flatMap((v, i) => [vertices[0], vertices[i + 1], v]),
+);
 
 describe("pliant deform with a sketch", () => {
   it("replays what was drawn, bit for bit", () => {
@@ -81,7 +101,8 @@ describe("pliant deform with a sketch", () => {
     for (const face of kept) expect(before).toContainEqual(face);
     expect(after.some(({ vertices }) => vertices.length === 3)).toBe(true);
     // Along the limb v is z at rest, also of added vertices; u is their angle, and jumps at the seam only.
-    const place = (v: number) => (v < positions.length / 3 ? Array.from(positions.slice(3 * v, 3 * v + 3)) : rest[v - positions.length / 3]);
+    const place = (v: number) =>
+      v < positions.length / 3 ? Array.from(positions.slice(3 * v, 3 * v + 3)) : rest[v - positions.length / 3];
     for (const { vertices, uv } of after.filter((face) => face.vertices.length === 3)) {
       vertices.forEach((v, i) => {
         const [x, y, z] = place(v);
@@ -103,8 +124,14 @@ describe("pliant deform with a sketch", () => {
   });
 
   it("goes on after a refinement, by a solver and by another sketch", () => {
-    const lift = { method: "embedded-graph", options: { nodeCount: 30 }, handles: [{ select: { all: true }, move: { translate: [0, 1, 0] } }] };
-    expect(run(edit(stretch, lift, { ...bend, region: "previous", bend: { target: curved(0, 0.2, 0.8, () => -1) } })).status).toBe(0);
+    const lift = {
+      method: "embedded-graph",
+      options: { nodeCount: 30 },
+      handles: [{ select: { all: true }, move: { translate: [0, 1, 0] } }],
+    };
+    expect(
+      run(edit(stretch, lift, { ...bend, region: "previous", bend: { target: curved(0, 0.2, 0.8, () => -1) } })).status,
+    ).toBe(0);
     const { steps, quality } = folder.json("report.json");
     expect(steps.map(({ method }: { method: string }) => method)).toEqual(["sketch", "embedded-graph", "sketch"]);
     expect(quality.stretch.mean).toBeGreaterThan(0);
@@ -119,14 +146,17 @@ describe("pliant deform with a sketch", () => {
     expect(run(script, "frame_%d.obj").status).toBe(0);
     expect(objPositions(folder.text("frame_1.obj"))).toEqual(positions);
     expect(run(edit({ ...bend, morph: 0.5 })).status).toBe(0);
-    const apart = objPositions(folder.text("frame_2.obj")).map((x, i) => Math.abs(x - objPositions(folder.text("out.obj"))[i]));
+    const apart = objPositions(folder.text("frame_2.obj")).map((x, i) =>
+      Math.abs(x - objPositions(folder.text("out.obj"))[i]),
+    );
     expect(Math.max(...apart)).toBeLessThan(1e-12);
   });
 
   it.each([
     ["an unknown key", { ...bend, twirl: 3 }, "steps[0].twirl"],
     ["nothing asked for", { method: "sketch", camera, reference: straight }, "asks for nothing"],
-    ["a stroke beside the shape's picture", { ...bend, partitions: [[pixel(0.8, 0.5), pixel(0.9, 0.5)]] }, "partitions[0] cuts nothing off"],
+    ["a stroke beside the shape's picture", { ...bend, partitions: [[pixel(0.8, 0.5), pixel(0.9, 0.5)]] },
+      "partitions[0] cuts nothing off"],
   ])("says in one line what is wrong: %s", (_, step, says) => {
     folder.write("edit.json", edit(step));
     const { status, out, err } = folder.run("deform", "limb.obj", "--script", "edit.json", "--out", "none.obj");
@@ -138,7 +168,10 @@ describe("pliant deform with a sketch", () => {
 
   it("refuses to carry what is not on the surface", () => {
     folder.write("edit.json", edit(bend));
-    const { status, err } = folder.run("deform", "limb.obj", "--script", "edit.json", "--out", "none.obj", "--carry", "limb.obj", "--carry-out", "carried.obj");
+    const { status, err } = folder.run(
+      "deform", "limb.obj", "--script", "edit.json", "--out", "none.obj", "--carry", "limb.obj", "--carry-out",
+      "carried.obj",
+    );
     expect(status).toBe(2);
     expect(err).toContain("sketch");
     expect(folder.list().some((name) => name.includes("none") || name.includes("carried"))).toBe(false);

@@ -19,7 +19,8 @@ const run = (steps: unknown, of = shape, more = {}) => pliant.edit(of, script(st
 type Sketch = ReturnType<typeof pliant.sketch>;
 const make = (more: object = {}, of = shape) => pliant.sketch(of, { camera, reference: straight, ...more });
 const doubles = (sketch: Sketch) => sketch.positions(new Float64Array(3 * sketch.vertices));
-const difference = (a: ArrayLike<number>, b: ArrayLike<number>) => Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
+const difference = (a: ArrayLike<number>, b: ArrayLike<number>) =>
+  Math.max(...Array.from(a, (x, i) => Math.abs(x - b[i])));
 
 describe("a sketch step", () => {
   const profile = [[0, 1], [0.5, 1.4], [1, 0.8]];
@@ -27,16 +28,39 @@ describe("a sketch step", () => {
     ["a bend", { bend: { target: arc } }, (sketch) => sketch.bend(arc)],
     ["a twist", { twist: { degrees: 200 } }, (sketch) => sketch.twist(200)],
     ["a scale", { scale: { profile } }, (sketch) => sketch.scale(profile)],
-    ["the turning control alone", { turning: { profile: [[0, 0.5], [1, 1.5]] } }, (sketch) => sketch.turning([[0, 0.5], [1, 1.5]])],
-    ["all at once, in any order", { twistSpeed: { profile: [[0, 0], [0.3, 1]] }, scale: { profile }, twist: { degrees: 90 }, bend: { target: arc }, smooth: false }, (sketch) => {
-      sketch.bend(arc);
-      sketch.twist(90);
-      sketch.scale(profile);
-      sketch.twistSpeed([[0, 0], [0.3, 1]]);
-    }, { smooth: false }],
-    ["a morph", { bend: { target: arc }, morph: 0.3 }, (sketch) => { sketch.bend(arc); sketch.morph(0.3); }],
-    ["partitions", { bend: { target: arc }, partitions: [[pixel(-0.2, 0.65), pixel(0.2, 0.65)]] }, (sketch) => sketch.bend(arc),
-      { partitions: [[pixel(-0.2, 0.65), pixel(0.2, 0.65)]] }],
+    [
+      "the turning control alone",
+      { turning: { profile: [[0, 0.5], [1, 1.5]] } },
+      (sketch) =>
+        sketch.turning([[0, 0.5], [1, 1.5]]),
+    ],
+    [
+      "all at once, in any order",
+      {
+        twistSpeed: { profile: [[0, 0], [0.3, 1]] },
+        scale: { profile },
+        twist: { degrees: 90 },
+        bend: { target: arc },
+        smooth: false,
+      },
+      (sketch) => {
+        sketch.bend(arc);
+        sketch.twist(90);
+        sketch.scale(profile);
+        sketch.twistSpeed([[0, 0], [0.3, 1]]);
+      },
+      { smooth: false },
+    ],
+    [
+      "a morph",
+      { bend: { target: arc }, morph: 0.3 },
+      (sketch) => {
+        sketch.bend(arc);
+        sketch.morph(0.3);
+      },
+    ],
+    ["partitions", { bend: { target: arc }, partitions: [[pixel(-0.2, 0.65), pixel(0.2, 0.65)]] },
+      (sketch) => sketch.bend(arc), { partitions: [[pixel(-0.2, 0.65), pixel(0.2, 0.65)]] }],
   ];
 
   it.each(gestures)("does what the calls do, bit for bit: %s", async (_, step, calls, options) => {
@@ -58,8 +82,15 @@ describe("a sketch step", () => {
   });
 
   it("takes over the region of the sketch step before, wherever it is by then", async () => {
-    const { positions, state, report } = await run([bend, { method: "embedded-graph", options: { nodeCount: 30 }, handles: [{ select: { all: true }, move: { translate: [0, 0.5, 0] } }] },
-      { ...base, region: "previous", twist: { degrees: 30 }, reference: arc }]);
+    const { positions, state, report } = await run([
+      bend,
+      {
+        method: "embedded-graph",
+        options: { nodeCount: 30 },
+        handles: [{ select: { all: true }, move: { translate: [0, 0.5, 0] } }],
+      },
+      { ...base, region: "previous", twist: { degrees: 30 }, reference: arc },
+    ]);
     expect(report.steps.map(({ method }) => method)).toEqual(["sketch", "embedded-graph", "sketch"]);
     expect((state as never as { labels: number[] }).labels).toEqual(Array.from(make().labels()));
     expect(positions.every(Number.isFinite)).toBe(true);
@@ -71,7 +102,9 @@ describe("a sketch step", () => {
     const target = curved(0.2, 0.2, 0.6, () => 1);
     const sketch = pliant.sketch(two, { camera, reference, mirror: { normal: [1, 0, 0] } });
     sketch.bend(target);
-    const { positions } = await run([{ ...base, reference, bend: { target }, mirror: { normal: [1, 0, 0], offset: 0 } }], two);
+    const { positions } = await run(
+      [{ ...base, reference, bend: { target }, mirror: { normal: [1, 0, 0], offset: 0 } }], two,
+    );
     expect(positions).toEqual(doubles(sketch));
   });
 
@@ -84,9 +117,15 @@ describe("a sketch step", () => {
 
   it("reports what it did", async () => {
     const seen: object[] = [];
-    const { report } = await pliant.edit(shape, script([bend]) as never, { onProgress: (progress) => seen.push(progress) });
-    const region = make().labels().filter((label) => label === 1).length;
-    expect(report.steps[0]).toMatchObject({ method: "sketch", unknowns: region, factorizations: 1, converged: true, start: 0, energy: { total: 0 } });
+    const { report } = await pliant.edit(shape, script([bend]) as never, {
+      onProgress: (progress) => seen.push(progress),
+    });
+    const region = make()
+      .labels()
+      .filter((label) => label === 1).length;
+    expect(report.steps[0]).toMatchObject({
+      method: "sketch", unknowns: region, factorizations: 1, converged: true, start: 0, energy: { total: 0 },
+    });
     expect(report.steps[0].iterations).toHaveLength(1);
     expect(report.quality.stretch.mean).toBeLessThan(0.1);
     expect(report.quality).toMatchObject({ folds: 0, constraintError: 0 });
@@ -114,7 +153,9 @@ describe("a sketch step", () => {
   it("is finished the long way round where it turns far", async () => {
     const round = curved(0, 0.2, 0.6, () => 1.7 * Math.PI);
     const finish = { method: "embedded-graph", options: { nodeCount: 120 }, spacing: 0.05 };
-    const [sketched, finished] = [await run([{ ...base, bend: { target: round } }]), await run([{ ...base, bend: { target: round }, finish }])];
+    const [sketched, finished] = [
+      await run([{ ...base, bend: { target: round } }]), await run([{ ...base, bend: { target: round }, finish }]),
+    ];
     expect(difference(finished.positions, sketched.positions)).toBeLessThan(0.05);
   });
 });
@@ -152,7 +193,17 @@ describe("a step that refines", () => {
     expect(Math.max(...refinement!.triangleParents)).toBe(coarse.triangles.length / 3 - 1);
     expect(report.steps.map((step) => step.added)).toEqual([added, undefined, more - added]);
     // At rest in the last step: what the step before has made of the first refinement, moved up.
-    rest.slice(0, added).forEach((point, i) => expect(difference(point, Array.from(first.positions.slice(coarse.positions.length + 3 * i, coarse.positions.length + 3 * i + 3), (x, k) => x + up.translate[k]))).toBeLessThan(1e-3));
+    rest.slice(0, added).forEach((point, i) =>
+      expect(
+        difference(
+          point,
+          Array.from(
+            first.positions.slice(coarse.positions.length + 3 * i, coarse.positions.length + 3 * i + 3),
+            (x, k) => x + up.translate[k],
+          ),
+        ),
+      ).toBeLessThan(1e-3),
+    );
   });
 
   it("stays within what it may add", async () => {
@@ -168,7 +219,9 @@ describe("keyframes", () => {
   } as never);
 
   it("blend poses by lengths and angles", async () => {
-    const result = await frames({ twist: { degrees: 0 } }, { bend: { target: arc }, twist: { degrees: 90 }, morph: 0.8 });
+    const result = await frames(
+      { twist: { degrees: 0 } }, { bend: { target: arc }, twist: { degrees: 90 }, morph: 0.8 },
+    );
     const sketch = make();
     sketch.twist(0);
     const rest = sketch.pose();
@@ -218,30 +271,39 @@ describe("a wrong sketch step", () => {
     ["a twist without degrees", { ...base, twist: {} }, "steps[0].twist.degrees", "undefined"],
     ["a twist in radians", { ...base, twist: { radians: 3 } }, "steps[0].twist.radians", "degrees"],
     ["an endless twist", { ...base, twist: { degrees: Infinity } }, "steps[0].twist.degrees", "Infinity"],
-    ["a twist beside the limb", { ...base, reference: curved(0.2, 0.2, 0.6, () => 0), twist: { degrees: 30 } }, "steps[0].twist: reference meets the shape"],
+    ["a twist beside the limb", { ...base, reference: curved(0.2, 0.2, 0.6, () => 0), twist: { degrees: 30 } },
+      "steps[0].twist: reference meets the shape"],
     ["an empty profile", { ...base, scale: { profile: [] } }, "steps[0].scale.profile", "empty"],
-    ["a profile beyond the stroke", { ...base, scale: { profile: [[0, 1], [2, 1]] } }, "steps[0].scale: profile[1]", "s from 0 to 1"],
-    ["a profile backwards", { ...base, scale: { profile: [[1, 1], [0, 1]] } }, "steps[0].scale: profile[1]", "not below"],
+    ["a profile beyond the stroke", { ...base, scale: { profile: [[0, 1], [2, 1]] } },
+      "steps[0].scale: profile[1]", "s from 0 to 1"],
+    ["a profile backwards", { ...base, scale: { profile: [[1, 1], [0, 1]] } },
+      "steps[0].scale: profile[1]", "not below"],
     ["a scale of zero", { ...base, scale: { profile: [[0, 1], [1, 0]] } }, "steps[0].scale: scale is 0", "above 0"],
     ["a speed without a twist", { ...bend, twistSpeed: { profile: [[0, 0]] } }, "steps[0].twistSpeed", "without twist"],
     ["a turning that is none", { ...base, turning: 3 }, "steps[0].turning", "3"],
     ["a morph beyond the pose", { ...bend, morph: 1.5 }, "steps[0].morph", "1.5", "from 0 to 1"],
     ["smooth as a number", { ...bend, smooth: 1 }, "steps[0].smooth", "true or false"],
     ["refine as text", { ...bend, refine: "yes" }, "steps[0].refine", '"yes"'],
-    ["refinement and a solver", { ...bend, refine: true, finish: { method: "embedded-graph" } }, "steps[0]", "refine and finish"],
+    ["refinement and a solver", { ...bend, refine: true, finish: { method: "embedded-graph" } },
+      "steps[0]", "refine and finish"],
     ["partitions as one line", { ...bend, partitions: [[1, 2], [3, 4]] }, "steps[0].partitions[0][0]"],
-    ["a partition beside the limb", { ...bend, partitions: [[[10, 10], [40, 10]]] }, "steps[0]", "partitions[0] cuts nothing off"],
+    ["a partition beside the limb", { ...bend, partitions: [[[10, 10], [40, 10]]] },
+      "steps[0]", "partitions[0] cuts nothing off"],
     ["a mirror without direction", { ...bend, mirror: { normal: [0, 0, 0] } }, "steps[0].mirror.normal", "zero vector"],
     ["a mirror through the limb", { ...bend, mirror: { normal: [1, 0, 0] } }, "steps[0]", "mirror"],
     ["a region that is none", { ...bend, region: "last" }, "steps[0].region", '"last"', '"previous"'],
     ["a region before any", { ...bend, region: "previous" }, "steps[0].region", "no sketch step comes before"],
-    ["a region with a bad stroke", { ...bend, region: { camera, reference: [[1, 2], [1, 2]] } }, "steps[0].region: reference"],
+    ["a region with a bad stroke", { ...bend, region: { camera, reference: [[1, 2], [1, 2]] } },
+      "steps[0].region: reference"],
     ["a region and partitions", { ...bend, region: "previous", partitions: [arc] }, "steps[0]", "partitions"],
     ["finishing by nothing", { ...bend, finish: {} }, "steps[0].finish.method", "undefined"],
     ["finishing by a sketch", { ...bend, finish: { method: "sketch" } }, "steps[0].finish.method", "not a solver"],
-    ["an unknown option of the finish", { ...bend, finish: { method: "embedded-graph", options: { nodes2: 1 } } }, "steps[0].finish.options.nodes2"],
-    ["negative spacing", { ...bend, finish: { method: "embedded-graph", spacing: -1 } }, "steps[0].finish.spacing", "-1"],
-    ["no iterations", { ...bend, finish: { method: "embedded-graph", solve: { iterations: 0 } } }, "steps[0].finish.solve.iterations", "0"],
+    ["an unknown option of the finish", { ...bend, finish: { method: "embedded-graph", options: { nodes2: 1 } } },
+      "steps[0].finish.options.nodes2"],
+    ["negative spacing", { ...bend, finish: { method: "embedded-graph", spacing: -1 } },
+      "steps[0].finish.spacing", "-1"],
+    ["no iterations", { ...bend, finish: { method: "embedded-graph", solve: { iterations: 0 } } },
+      "steps[0].finish.solve.iterations", "0"],
   ];
 
   it.each(rows)("%s", async (_, step, ...says) => {
@@ -265,7 +327,9 @@ describe("a wrong sketch step", () => {
     const open = pliant.shape({ positions, triangles });
     for (const asked of [{ twist: { degrees: 10 } }, { scale: { profile: [[0, 2]] } }]) {
       const { code, message } = await errorOf(() => run([{ ...base, ...asked }], open));
-      expect([code, message]).toEqual(["invalid-script", expect.stringContaining("meets the shape only once at pixel")]);
+      expect([code, message]).toEqual([
+        "invalid-script", expect.stringContaining("meets the shape only once at pixel"),
+      ]);
     }
     expect(difference((await run([bend], open)).positions, positions)).toBeGreaterThan(0.1);
   });
@@ -285,17 +349,23 @@ describe("wrong calls of a sketch", () => {
     ["no options", () => pliant.sketch(shape, undefined as never), "invalid-option", "options", "undefined"],
     ["no shape", () => pliant.sketch({} as never, { camera, reference: straight }), "invalid-option", "shape"],
     ["an unknown option", build({ target: arc }), "invalid-option", "options.target", "option of a sketch"],
-    ["points", () => pliant.sketch(pliant.shape({ positions: [0, 0, 0] }), { camera, reference: straight }), "invalid-shape", "no triangles"],
+    ["points", () => pliant.sketch(pliant.shape({ positions: [0, 0, 0] }), { camera, reference: straight }),
+      "invalid-shape", "no triangles"],
     ["too few labels", build({ labels: [1] }), "invalid-option", "labels has length 1"],
     ["no labels", build({ labels: [] }), "invalid-option", "labels is empty"],
-    ["half a label", build({ labels: Array(mesh.positions.length / 3).fill(0.5) }), "invalid-option", "labels[0]", "0.5"],
-    ["labels without a region", build({ labels: new Uint8Array(mesh.positions.length / 3) }), "invalid-option", "labels", "label 1"],
-    ["labels and partitions", build({ labels: make().labels(), partitions: [[pixel(-0.2, 0.6), pixel(0.2, 0.6)]] }), "invalid-option", "labels", "partitions"],
+    ["half a label", build({ labels: Array(mesh.positions.length / 3).fill(0.5) }),
+      "invalid-option", "labels[0]", "0.5"],
+    ["labels without a region", build({ labels: new Uint8Array(mesh.positions.length / 3) }),
+      "invalid-option", "labels", "label 1"],
+    ["labels and partitions", build({ labels: make().labels(), partitions: [[pixel(-0.2, 0.6), pixel(0.2, 0.6)]] }),
+      "invalid-option", "labels", "partitions"],
     ["a reference without samples", () => sketch.redraw(camera, []), "invalid-option", "reference", "empty"],
-    ["a reference of the wrong kind", () => sketch.redraw(camera, "line" as never), "invalid-option", "reference", '"line"'],
+    ["a reference of the wrong kind", () => sketch.redraw(camera, "line" as never),
+      "invalid-option", "reference", '"line"'],
     ["no target", () => sketch.bend(undefined as never), "invalid-option", "target", "undefined"],
     ["a target of odd length", () => sketch.bend(Float32Array.of(1, 2, 3)), "invalid-option", "target", "length 3"],
-    ["an unknown option of a bend", () => sketch.bend(arc, { open: true } as never), "invalid-option", "options.open", "unfinished"],
+    ["an unknown option of a bend", () => sketch.bend(arc, { open: true } as never),
+      "invalid-option", "options.open", "unfinished"],
     ["perhaps unfinished", () => sketch.bend(arc, { unfinished: 1 } as never), "invalid-option", "options.unfinished"],
     ["a twist by text", () => sketch.twist("90" as never), "invalid-option", "degrees", '"90"'],
     ["a scale below zero", () => sketch.scale([[0, -1]]), "invalid-option", "scale", "above 0"],
@@ -304,11 +374,15 @@ describe("wrong calls of a sketch", () => {
     ["a morph beyond 1", () => sketch.morph(2), "invalid-option", "morph", "2"],
     ["smooth by text", () => sketch.setSmooth("yes" as never), "invalid-option", "smooth"],
     ["no pose", () => sketch.setPose(undefined as never), "invalid-option", "pose", "undefined"],
-    ["a pose of another curve", () => sketch.setPose({ ...sketch.pose(), turns: [1] }), "invalid-option", "pose.turns", "length 1"],
-    ["an endless pose", () => sketch.setPose({ ...sketch.pose(), turns: Array(1_000_000).fill(0) }), "invalid-option", "pose.turns", "length 1000000"],
+    ["a pose of another curve", () => sketch.setPose({ ...sketch.pose(), turns: [1] }),
+      "invalid-option", "pose.turns", "length 1"],
+    ["an endless pose", () => sketch.setPose({ ...sketch.pose(), turns: Array(1_000_000).fill(0) }),
+      "invalid-option", "pose.turns", "length 1000000"],
     ["a pose without length", () => sketch.setPose({ ...sketch.pose(), length: 0 }), "invalid-option", "pose"],
-    ["a pose nowhere", () => sketch.setPose({ ...sketch.pose(), heading: NaN }), "invalid-option", "pose.heading", "NaN"],
-    ["a pose toward another curve", () => sketch.setPose(sketch.pose(), { ...sketch.pose(), turns: [1] }, 0.5), "invalid-option", "toward.turns"],
+    ["a pose nowhere", () => sketch.setPose({ ...sketch.pose(), heading: NaN }),
+      "invalid-option", "pose.heading", "NaN"],
+    ["a pose toward another curve", () => sketch.setPose(sketch.pose(), { ...sketch.pose(), turns: [1] }, 0.5),
+      "invalid-option", "toward.turns"],
     ["a share beyond 1", () => sketch.setPose(sketch.pose(), sketch.pose(), 3), "invalid-option", "t is 3"],
     ["half a vertex to add", () => sketch.refine({ maxAdded: 0.5 }), "invalid-option", "options.maxAdded", "0.5"],
     ["spacing below zero", () => sketch.seed({ spacing: -1 }), "invalid-option", "options.spacing", "-1"],
@@ -331,7 +405,9 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     const [here, sketch] = [make({}, coarseShape), await library.sketch(there, { camera, reference: straight })];
     expect(await sketch.labels()).toEqual(here.labels());
     expect(await sketch.held()).toBe(here.held());
-    expect(await library.limbStroke(there, { camera, pixel: pixel(0, 0.9) })).toEqual(pliant.limbStroke(coarseShape, { camera, pixel: pixel(0, 0.9) }));
+    expect(await library.limbStroke(there, { camera, pixel: pixel(0, 0.9) })).toEqual(
+      pliant.limbStroke(coarseShape, { camera, pixel: pixel(0, 0.9) }),
+    );
     here.bend(arc, { unfinished: true });
     await sketch.bend(arc, { unfinished: true });
     expect(await sketch.positions()).toEqual(here.positions());

@@ -35,7 +35,9 @@ describe.each(["arap", "edge-material"] as const)("%s", (method) => {
     const other = grabbed();
     other.hand.move({});
     other.deformer.restore(state);
-    expect(other.deformer.positions(new Float64Array(mesh.positions.length))).toEqual(deformer.positions(new Float64Array(mesh.positions.length)));
+    expect(other.deformer.positions(new Float64Array(mesh.positions.length))).toEqual(
+      deformer.positions(new Float64Array(mesh.positions.length)),
+    );
     expect(other.deformer.energy()).toEqual(deformer.energy());
     expect(other.deformer.state()).toEqual(deformer.state());
     const rows: [object, ...string[]][] = [
@@ -57,9 +59,13 @@ describe.each(["arap", "edge-material"] as const)("%s", (method) => {
   it("carries no other points, refines nothing, and needs a surface", async () => {
     const { deformer } = grabbed();
     const carried = await errorOf(() => deformer.transformPoints([1, 2, 3]));
-    expect(carried).toMatchObject({ code: "not-solvable", message: expect.stringContaining("a method that carries points") });
+    expect(carried).toMatchObject({
+      code: "not-solvable", message: expect.stringContaining("a method that carries points"),
+    });
     const refined = await errorOf(() => pliant.deformer(shape, { method, refine: true } as never));
-    expect(refined).toMatchObject({ code: "invalid-option", message: expect.stringContaining(`options.refine is not a known option of ${method}`) });
+    expect(refined).toMatchObject({
+      code: "invalid-option", message: expect.stringContaining(`options.refine is not a known option of ${method}`),
+    });
     const points = await errorOf(() => pliant.deformer(pliant.shape({ positions: mesh.positions }), { method }));
     expect(points).toMatchObject({ code: "invalid-shape", message: expect.stringContaining("no triangles") });
     expect((await deformer.solve()).converged).toBe(true);
@@ -72,7 +78,9 @@ describe.each(["arap", "edge-material"] as const)("%s", (method) => {
     await remote.setFixed(where(mesh.positions, (x) => x <= 0.1));
     const far = await remote.addHandle(hand.vertices);
     await far.move(lift.move);
-    const change = (method === "arap" ? { energy: "spokes-and-rims" } : { pBend: 0.5, field: { geodesic: { vertices: [0] } } }) as never;
+    const change = (
+      method === "arap" ? { energy: "spokes-and-rims" } : { pBend: 0.5, field: { geodesic: { vertices: [0] } } }
+    ) as never;
     for (const each of [deformer, remote]) {
       await each.setOptions(change);
       await each.solve({ maxIterations: 9 });

@@ -30,7 +30,9 @@ describe("pliant/three", () => {
     for (let i = 0; i < rest.count; ++i) {
       for (let j = 0; j < i; ++j) {
         const same = rest.getX(i) === rest.getX(j) && rest.getY(i) === rest.getY(j) && rest.getZ(i) === rest.getZ(j);
-        if (same) expect([moved.getX(i), moved.getY(i), moved.getZ(i)]).toEqual([moved.getX(j), moved.getY(j), moved.getZ(j)]);
+        if (same) {
+          expect([moved.getX(i), moved.getY(i), moved.getZ(i)]).toEqual([moved.getX(j), moved.getY(j), moved.getZ(j)]);
+        }
       }
     }
   });
@@ -39,8 +41,11 @@ describe("pliant/three", () => {
     const geometry = new THREE.BoxGeometry(0.5, 2, 0.5, 2, 8, 2);
     const rest = geometry.getAttribute("normal").clone();
     await bent(geometry);
-    const [normal, position, index] = [geometry.getAttribute("normal"), geometry.getAttribute("position"), geometry.index!];
-    const v = (attribute: { getX(i: number): number; getY(i: number): number; getZ(i: number): number }, i: number) => new THREE.Vector3(attribute.getX(i), attribute.getY(i), attribute.getZ(i));
+    const [normal, position, index] = [
+      geometry.getAttribute("normal"), geometry.getAttribute("position"), geometry.index!,
+    ];
+    const v = (attribute: { getX(i: number): number; getY(i: number): number; getZ(i: number): number }, i: number) =>
+      new THREE.Vector3(attribute.getX(i), attribute.getY(i), attribute.getZ(i));
     let turned = 0;
     for (let t = 0; t < index.count; t += 3) {
       const [a, b, c] = [0, 1, 2].map((corner) => v(position, index.getX(t + corner)));
@@ -80,7 +85,9 @@ describe("pliant/three", () => {
     const interleaved = new THREE.BufferGeometry().setIndex(indexed.index);
     interleaved.setAttribute("position", new THREE.InterleavedBufferAttribute(data, 3, 0));
     const source = indexed.getAttribute("position");
-    for (let i = 0; i < source.count; ++i) interleaved.getAttribute("position").setXYZ(i, source.getX(i), source.getY(i), source.getZ(i));
+    for (let i = 0; i < source.count; ++i) {
+      interleaved.getAttribute("position").setXYZ(i, source.getX(i), source.getY(i), source.getZ(i));
+    }
     await bent(interleaved);
     await bent(indexed);
     const [a, b] = [interleaved.getAttribute("position"), indexed.getAttribute("position")];
@@ -88,7 +95,9 @@ describe("pliant/three", () => {
     expect(data.version).toBeGreaterThan(0);
   });
 
-  /** A geometry of floats with its attributes in 16 and 8 bits, as gltfpack leaves them; `interleaved`: side by side. */
+  /**
+   * A geometry of floats with its attributes in 16 and 8 bits, as gltfpack leaves them; `interleaved`: side by side.
+   */
   function quantised(geometry: THREE.BufferGeometry, interleaved: boolean): THREE.BufferGeometry {
     const result = new THREE.BufferGeometry().setIndex(geometry.index);
     const attribute = (name: string, array: Int16Array | Int8Array) => {
@@ -106,11 +115,16 @@ describe("pliant/three", () => {
     const geometry = quantised(new THREE.CylinderGeometry(0.3, 0.3, 1.9, 16, 12), interleaved);
     const { deformer } = await bent(geometry);
     const position = geometry.getAttribute("position");
-    expect(Float32Array.from({ length: 3 * position.count }, (_, i) => [position.getX, position.getY, position.getZ][i % 3].call(position, Math.floor(i / 3))))
-      .toEqual(deformer.positions());
+    expect(
+      Float32Array.from({ length: 3 * position.count }, (_, i) =>
+        [position.getX, position.getY, position.getZ][i % 3].call(position, Math.floor(i / 3)),
+      ),
+    ).toEqual(deformer.positions());
     expect(geometry.boundingBox!.max.x).toBeGreaterThan(1.2);
     const normal = geometry.getAttribute("normal");
-    for (let i = 0; i < normal.count; ++i) expect(Math.hypot(normal.getX(i), normal.getY(i), normal.getZ(i))).toBeCloseTo(1, 5);
+    for (let i = 0; i < normal.count; ++i) {
+      expect(Math.hypot(normal.getX(i), normal.getY(i), normal.getZ(i))).toBeCloseTo(1, 5);
+    }
   });
 
   it("has tangents that follow, as those made anew", async () => {
@@ -121,7 +135,8 @@ describe("pliant/three", () => {
     const moved = geometry.getAttribute("tangent").clone();
     geometry.computeTangents();
     const made = geometry.getAttribute("tangent");
-    const at = (attribute: { array: ArrayLike<number> }, i: number) => new THREE.Vector3(attribute.array[4 * i], attribute.array[4 * i + 1], attribute.array[4 * i + 2]);
+    const at = (attribute: { array: ArrayLike<number> }, i: number) =>
+      new THREE.Vector3(attribute.array[4 * i], attribute.array[4 * i + 1], attribute.array[4 * i + 2]);
     let turned = 0;
     for (let i = 0; i < made.count; ++i) {
       expect(moved.array[4 * i + 3]).toBe(rest.array[4 * i + 3]);
@@ -159,8 +174,12 @@ describe("pliant/three", () => {
     expect((await errorOf(() => shapeOf(undefined as never))).code).toBe("invalid-shape");
     const binding = new GeometryBinding(geometry as never);
     for (const nothing of [undefined, null, {}]) {
-      expect(await errorOf(() => binding.update(nothing as never))).toMatchObject({ code: "invalid-option", message: expect.stringContaining("deformer is") });
+      expect(await errorOf(() => binding.update(nothing as never))).toMatchObject({
+        code: "invalid-option", message: expect.stringContaining("deformer is"),
+      });
     }
-    expect((await errorOf(() => new GeometryBinding(geometry as never).write(new Float32Array(3)))).code).toBe("invalid-option");
+    expect((await errorOf(() => new GeometryBinding(geometry as never).write(new Float32Array(3)))).code).toBe(
+      "invalid-option",
+    );
   });
 });

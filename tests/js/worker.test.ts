@@ -110,8 +110,16 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     const library = await start();
     const shape = await library.shape(mesh);
     const script = {
-      format: "pliant-edit", version: 1,
-      steps: [{ method: "embedded-graph", options: { nodeCount: 30 }, fixed: [{ vertices: left }], handles: [{ select: { vertices: right }, move: { translate: [0, 0, 0.3] } }] }],
+      format: "pliant-edit",
+      version: 1,
+      steps: [
+        {
+          method: "embedded-graph",
+          options: { nodeCount: 30 },
+          fixed: [{ vertices: left }],
+          handles: [{ select: { vertices: right }, move: { translate: [0, 0, 0.3] } }],
+        },
+      ],
     } as const;
     let progress = 0;
     const { positions, report } = await library.edit(shape, script, { onProgress: () => ++progress });
@@ -128,15 +136,32 @@ describe.each([{ inline: false }, { inline: true }])("pliant/worker $inline", ({
     const hand = await deformer.addHandle([10200]);
     await hand.move({ translate: [0, 0, 0.5] });
     const controller = new AbortController();
-    const solving = errorOf(() => deformer.solve({ signal: controller.signal, tolerance: 1e-14, maxIterations: 1_000_000 }));
+    const solving = errorOf(() =>
+      deformer.solve({ signal: controller.signal, tolerance: 1e-14, maxIterations: 1_000_000 }),
+    );
     await deformer.counters();
     controller.abort(new RangeError("changed my mind"));
     expect(await solving).toMatchObject({ code: "aborted", cause: new RangeError("changed my mind") });
     expect((await deformer.step()).energy).toBeGreaterThan(0);
-    const handles = [{ select: { vertices: [0] } }, { select: { vertices: [10200] }, move: { translate: [0, 0, 0.5] } }];
-    const script = { format: "pliant-edit", version: 1, steps: [{ method: "embedded-graph", options: { nodeCount: 400, solver: "gauss-newton" }, handles, solve: { tolerance: 1e-14 } }] };
+    const handles = [
+      { select: { vertices: [0] } }, { select: { vertices: [10200] }, move: { translate: [0, 0, 0.5] } },
+    ];
+    const script = {
+      format: "pliant-edit",
+      version: 1,
+      steps: [
+        {
+          method: "embedded-graph",
+          options: { nodeCount: 400, solver: "gauss-newton" },
+          handles,
+          solve: { tolerance: 1e-14 },
+        },
+      ],
+    };
     const stop = new AbortController();
-    const editing = errorOf(() => library.edit(big, script as never, { signal: stop.signal, onProgress: () => stop.abort() }));
+    const editing = errorOf(() =>
+      library.edit(big, script as never, { signal: stop.signal, onProgress: () => stop.abort() }),
+    );
     expect((await editing).code).toBe("aborted");
   });
 
@@ -205,7 +230,9 @@ describe("pliant/worker", () => {
       import { init } from "pliant/worker";
       const shape = await (await init()).shape({ positions: [0, 0, 0, 1, 1, 1] });
       console.log(shape.report.vertices);`;
-    expect(execFileSync(process.execPath, ["--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" })).toBe("2\n");
+    expect(
+      execFileSync(process.execPath, ["--input-type=module", "-e", program], { cwd: consumer, encoding: "utf8" }),
+    ).toBe("2\n");
   });
 
   it("refuses options it does not know", async () => {

@@ -30,7 +30,9 @@ describe.each(ways)("%s", (how) => {
     await visit(how, { tool: "pose" });
     const handle = await demo.handle();
     await demo.drag(handle, { x: handle.x + 60, y: handle.y - 110 });
-    const [rest, now, fixed, shape] = [await ask((h) => h.rest()), await demo.positions(), await ask((h) => h.fixed()), await ask((h) => h.shape())];
+    const [rest, now, fixed, shape] = [
+      await ask((h) => h.rest()), await demo.positions(), await ask((h) => h.fixed()), await ask((h) => h.shape()),
+    ];
     const moved = await demo.handle();
     expect(Math.hypot(moved.x - handle.x - 60, moved.y - handle.y + 110)).toBeLessThan(1);
     expect(farthest(rest, now, fixed)).toBeLessThan(1e-6 * shape.diagonal);
@@ -145,7 +147,9 @@ test("the ring turns a handle in the picture", async () => {
     x: handle.x + 46 * Math.cos((degrees * Math.PI) / 180), y: handle.y + 46 * Math.sin((degrees * Math.PI) / 180),
   });
   await demo.drag(at(-120), at(-90), at(-60), at(-30));
-  const script = (await ask((hook) => hook.script())) as { steps: { drag: { handles: { move: { rotate: { degrees: number } } }[] }[] }[] };
+  const script = (await ask((hook) => hook.script())) as {
+    steps: { drag: { handles: { move: { rotate: { degrees: number } } }[] }[] }[];
+  };
   const { degrees } = script.steps[0]!.drag.at(-1)!.handles[0]!.move.rotate;
   expect(degrees).toBeCloseTo(90, 0);
 });
@@ -202,7 +206,9 @@ test("a finger drags a handle", async () => {
 test.each(["bunny", "plane", "tree", "gingerbread"])("the shape %s bends too", async (id) => {
   await open();
   await demo.choose(id);
-  const [rest, fixed, { diagonal }] = [await ask((h) => h.rest()), await ask((h) => h.fixed()), await ask((h) => h.shape())];
+  const [rest, fixed, { diagonal }] = [
+    await ask((h) => h.rest()), await ask((h) => h.fixed()), await ask((h) => h.shape()),
+  ];
   const handle = await demo.handle();
   await demo.drag(handle, { x: handle.x - 40, y: handle.y - 70 });
   const now = await demo.positions();

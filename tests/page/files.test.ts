@@ -15,7 +15,9 @@ beforeEach(async () => {
 });
 
 async function exported(kind: "obj" | "glb" | "script"): Promise<{ name: string; bytes: Buffer }> {
-  const [download] = await Promise.all([demo.page.waitForEvent("download"), demo.page.locator(`#export-${kind}`).click()]);
+  const [download] = await Promise.all([
+    demo.page.waitForEvent("download"), demo.page.locator(`#export-${kind}`).click(),
+  ]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
@@ -44,7 +46,15 @@ async function bend(): Promise<void> {
 
 /** The coordinates of an OBJ, in single precision, as the screen has them. */
 const vertexLines = (text: string) =>
-  text.split("\n").filter((line) => line.startsWith("v ")).flatMap((line) => line.split(" ").slice(1, 4).map((x) => Math.fround(Number(x))));
+  text
+    .split("\n")
+    .filter((line) => line.startsWith("v "))
+    .flatMap((line) =>
+      line
+        .split(" ")
+        .slice(1, 4)
+        .map((x) => Math.fround(Number(x))),
+    );
 
 test("OBJ and GLB hold the bent shape", async () => {
   await bend();
@@ -58,7 +68,10 @@ test("OBJ and GLB hold the bent shape", async () => {
 
   const glb = await exported("glb");
   expect(glb.name).toBe("creature-bent.glb");
-  const primitive = (await new NodeIO().readBinary(new Uint8Array(glb.bytes))).getRoot().listMeshes()[0]!.listPrimitives()[0]!;
+  const primitive = (await new NodeIO().readBinary(new Uint8Array(glb.bytes)))
+    .getRoot()
+    .listMeshes()[0]!
+    .listPrimitives()[0]!;
   expect(farthest(primitive.getAttribute("POSITION")!.getArray()!, positions)).toBeLessThan(1e-6 * diagonal);
   expect(primitive.getAttribute("NORMAL")!.getCount()).toBe(vertices);
   expect(primitive.getAttribute("COLOR_0")!.getCount()).toBe(vertices);
@@ -69,7 +82,9 @@ test("a picture exports with its texture, points without faces", async () => {
   await demo.choose("gingerbread");
   const glb = (await new NodeIO().readBinary(new Uint8Array((await exported("glb")).bytes))).getRoot();
   expect(glb.listTextures()[0]!.getSize()).toEqual([640, 768]);
-  expect(glb.listMeshes()[0]!.listPrimitives()[0]!.getAttribute("TEXCOORD_0")!.getCount()).toBe((await shape()).vertices);
+  expect(glb.listMeshes()[0]!.listPrimitives()[0]!.getAttribute("TEXCOORD_0")!.getCount()).toBe(
+    (await shape()).vertices,
+  );
   expect((await exported("obj")).bytes.toString()).toMatch(/\nvt .*\nf \d+\/\d+ /);
 
   await demo.choose("tree");
@@ -88,7 +103,15 @@ test("the exported script bends the rest shape to the same pose with the package
 
   const [before, positions, { diagonal }] = [await rest(), await demo.positions(), await shape()];
   const obj = (await exported("obj")).bytes.toString();
-  const triangles = obj.split("\n").filter((line) => line.startsWith("f ")).flatMap((line) => line.split(" ").slice(1).map((c) => parseInt(c, 10) - 1));
+  const triangles = obj
+    .split("\n")
+    .filter((line) => line.startsWith("f "))
+    .flatMap((line) =>
+      line
+        .split(" ")
+        .slice(1)
+        .map((c) => parseInt(c, 10) - 1),
+    );
   expect(farthest(before, positions)).toBeGreaterThan(0.1 * diagonal);
   expect(farthest((await replay(script, before, triangles)).positions, positions)).toBeLessThan(1e-6 * diagonal);
 });
@@ -96,7 +119,9 @@ test("the exported script bends the rest shape to the same pose with the package
 /** A sheet of 12 x 12 quads with all that an OBJ may hold beside coordinates. */
 function quadSheet(): string {
   const lines = ["# a sheet", "mtllib nothing.mtl", "o sheet"];
-  for (let i = 0; i < 169; i++) lines.push(`v ${(i % 13) / 12} ${Math.floor(i / 13) / 12} ${0.1 * Math.sin(i % 13)} 0.5 0.25 1`);
+  for (let i = 0; i < 169; i++) {
+    lines.push(`v ${(i % 13) / 12} ${Math.floor(i / 13) / 12} ${0.1 * Math.sin(i % 13)} 0.5 0.25 1`);
+  }
   lines.push("vt 0 0", "vt 1 1", "vn 0 0 1", "usemtl red");
   for (let i = 0; i < 144; i++) {
     const a = 13 * Math.floor(i / 12) + (i % 12) + 1;
@@ -119,7 +144,8 @@ test("a dropped OBJ keeps its vertex order, and its export everything but the co
   const { name, bytes } = await exported("obj");
   expect(name).toBe("my sheet-bent.obj");
   // Normals belong to the old shape: they are left out.
-  const other = (content: string) => content.split("\n").map((line) => (line.startsWith("v ") ? line.split(" ").slice(4) : line));
+  const other = (content: string) =>
+    content.split("\n").map((line) => (line.startsWith("v ") ? line.split(" ").slice(4) : line));
   expect(other(bytes.toString())).toEqual(other(text.replace("vn 0 0 1\n", "").replace(/(\d\/\d)\/1/g, "$1")));
   expect(vertexLines(bytes.toString())).toEqual(await demo.positions());
   expect(farthest(vertexLines(bytes.toString()), vertexLines(text))).toBeGreaterThan(0.05);
@@ -159,12 +185,19 @@ test("other formats open as well", async () => {
   await shows("dots.xyz");
   expect(await shape()).toMatchObject({ vertices: 5, triangles: 0 });
 
-  await drop("tetra.ply", `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4
-property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n`);
+  await drop(
+    "tetra.ply",
+    `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4
+property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n`,
+  );
   await shows("tetra.ply");
   expect(await shape()).toMatchObject({ vertices: 4, triangles: 4 });
 
-  await drop("one.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+  await drop(
+    "one.stl",
+    "solid a\nfacet normal 0 0 1\nouter loop\n" +
+      "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
+  );
   await shows("one.stl");
   expect(await shape()).toMatchObject({ vertices: 3, triangles: 1 });
   await demo.idle();
@@ -173,7 +206,8 @@ property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n
 test.each([
   ["notes.txt", "hello", /notes\.txt: this kind of file is not known here\. Known are \.obj/],
   ["empty.obj", "# nothing\n", /empty\.obj could not be read: the file has no vertices\.$/],
-  ["broken.obj", "v 0 0 0\nv 1 0 zero\n", /broken\.obj could not be read: line 2: z is "zero"; expected a finite decimal number/],
+  ["broken.obj", "v 0 0 0\nv 1 0 zero\n",
+    /broken\.obj could not be read: line 2: z is "zero"; expected a finite decimal number/],
   ["faces.obj", "v 0 0 0\nf 1 2 3\n", /faces\.obj could not be read: line 2: face refers to vertex 3/],
   ["thing.glb", "not a glb at all, but long enough", /thing\.glb could not be read: not a readable \.glb/],
   ["bad.ply", "ply\nformat ascii 1.0\n", /bad\.ply could not be read/],
@@ -198,8 +232,11 @@ function arrows(columns = 16, rows = 16): { points: number[][]; faces: number[][
   for (let row = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++) {
       const at = points.length;
-      const corners = [[0, 0], [0.3, 0.45], [0, 1], [1, 1], [1, 0]]; // the second lies inside, so that a fan from the first crosses the outline
-      for (const [x, y] of corners) points.push([(column + x!) / columns, (row + y!) / rows, 0.05 * Math.sin(5 * (column + x!))]);
+      // The second lies inside, so that a fan from the first crosses the outline.
+      const corners = [[0, 0], [0.3, 0.45], [0, 1], [1, 1], [1, 0]];
+      for (const [x, y] of corners) {
+        points.push([(column + x!) / columns, (row + y!) / rows, 0.05 * Math.sin(5 * (column + x!))]);
+      }
       faces.push(corners.map((_, k) => at + k));
     }
   }
@@ -208,20 +245,35 @@ function arrows(columns = 16, rows = 16): { points: number[][]; faces: number[][
 
 const colorOf = (v: number) => [v % 251, (3 * v) % 241, 128];
 
+const text = (lines: readonly string[]) => `${lines.join("\n")}\n`;
+
 const kinds: Record<string, () => string | Uint8Array> = {
   "polygons.obj": () => {
     const { points, faces } = arrows();
-    return `${[...points.map((p) => `v ${p.join(" ")}`), ...faces.map((f) => `f ${f.map((v) => v + 1).join(" ")}`)].join("\n")}\n`;
+    return text([
+      ...points.map((p) => `v ${p.join(" ")}`),
+      ...faces.map((f) => `f ${f.map((v) => v + 1).join(" ")}`),
+    ]);
   },
   "textured.obj": () => {
     const { points, faces } = arrows();
-    return `# keeps its words\n${[...points.flatMap((p) => [`v ${p.join(" ")}`, `vt ${p[0]} ${p[1]}`]), "usemtl red", ...faces.map((f) => `f ${f.map((v) => `${v + 1}/${v + 1}`).join(" ")}`)].join("\n")}\n`;
+    return text([
+      "# keeps its words",
+      ...points.flatMap((p) => [`v ${p.join(" ")}`, `vt ${p[0]} ${p[1]}`]),
+      "usemtl red",
+      ...faces.map((f) => `f ${f.map((v) => `${v + 1}/${v + 1}`).join(" ")}`),
+    ]);
   },
   "colored.ply": () => {
     const { points, faces } = arrows();
-    const properties = ["x", "y", "z"].map((k) => `property double ${k}`).concat(["red", "green", "blue"].map((k) => `property uchar ${k}`)).join("\n");
-    const header = `ply\nformat ascii 1.0\nelement vertex ${points.length}\n${properties}\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header`;
-    return `${[header, ...points.map((p, v) => [...p, ...colorOf(v)].join(" ")), ...faces.map((f) => [5, ...f].join(" "))].join("\n")}\n`;
+    return text([
+      "ply", "format ascii 1.0", `element vertex ${points.length}`,
+      ...["x", "y", "z"].map((name) => `property double ${name}`),
+      ...["red", "green", "blue"].map((name) => `property uchar ${name}`),
+      `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header",
+      ...points.map((p, v) => [...p, ...colorOf(v)].join(" ")),
+      ...faces.map((f) => [5, ...f].join(" ")),
+    ]);
   },
 };
 
@@ -231,34 +283,48 @@ async function glbSheet(): Promise<Uint8Array> {
   return write(await read(new TextEncoder().encode(kinds["colored.ply"]!() as string), "sheet.ply"), "sheet.glb");
 }
 
-test.each([...Object.keys(kinds), "sheet.glb"])("what is done to %s on the page is what the command makes of it", async (name) => {
-  const content = name === "sheet.glb" ? await glbSheet() : kinds[name]!();
-  await demo.page.locator("#file").setInputFiles({ name, mimeType: "application/octet-stream", buffer: Buffer.from(content as string) });
-  await shows(name);
-  await demo.idle();
-  await demo.page.keyboard.press("3");
-  const { vertices, diagonal } = await shape();
-  const near = await demo.page.evaluate((v) => window.pliantDemo.vertexAt(v), Math.floor(vertices * 0.8));
-  await demo.drag(near, { x: near.x + 20, y: near.y - 60 });
-  expect(farthest(await rest(), await demo.positions())).toBeGreaterThan(0.05 * diagonal);
-  const [positions, script, exported_] = [await demo.positions(), await exported("script"), await exported(name.endsWith("glb") ? "glb" : "obj")];
+test.each([...Object.keys(kinds), "sheet.glb"])(
+  "what is done to %s on the page is what the command makes of it",
+  async (name) => {
+    const content = name === "sheet.glb" ? await glbSheet() : kinds[name]!();
+    await demo.page
+      .locator("#file")
+      .setInputFiles({ name, mimeType: "application/octet-stream", buffer: Buffer.from(content as string) });
+    await shows(name);
+    await demo.idle();
+    await demo.page.keyboard.press("3");
+    const { vertices, diagonal } = await shape();
+    const near = await demo.page.evaluate((v) => window.pliantDemo.vertexAt(v), Math.floor(vertices * 0.8));
+    await demo.drag(near, { x: near.x + 20, y: near.y - 60 });
+    expect(farthest(await rest(), await demo.positions())).toBeGreaterThan(0.05 * diagonal);
+    const [positions, script, exported_] = [
+      await demo.positions(), await exported("script"), await exported(name.endsWith("glb") ? "glb" : "obj"),
+    ];
 
-  const folder = mkdtempSync(join(tmpdir(), "pliant-page-"));
-  const path = (file: string) => join(folder, file);
-  writeFileSync(path(name), content);
-  writeFileSync(path("edit.json"), script.bytes);
-  writeFileSync(path(`page-${exported_.name}`), exported_.bytes);
-  const out = `out.${exported_.name.split(".").pop()!}`;
-  execFileSync(process.execPath, [join(dist, "cli.js"), "deform", path(name), "--script", path("edit.json"), "--out", path(out), "--quiet"]);
-  const { read } = (await import(join(dist, "io.js"))) as typeof import("../../bindings/js/io.ts");
-  const [ours, theirs] = [await read(readFileSync(path(`page-${exported_.name}`)), exported_.name), await read(readFileSync(path(out)), out)];
-  expect(farthest(ours.positions, positions)).toBeLessThan(1e-6 * diagonal);
-  expect(farthest(theirs.positions, positions)).toBeLessThan(1e-6 * diagonal);
-  expect([ours.faceVertices, ours.faceOffsets, ours.texcoords, ours.colors]).toEqual([theirs.faceVertices, theirs.faceOffsets, theirs.texcoords, theirs.colors]);
-  const opened = await read(typeof content === "string" ? new TextEncoder().encode(content) : content, name);
-  expect(await ask((hook) => hook.triangles())).toEqual(Array.from(opened.triangles));
-  rmSync(folder, { recursive: true });
-});
+    const folder = mkdtempSync(join(tmpdir(), "pliant-page-"));
+    const path = (file: string) => join(folder, file);
+    writeFileSync(path(name), content);
+    writeFileSync(path("edit.json"), script.bytes);
+    writeFileSync(path(`page-${exported_.name}`), exported_.bytes);
+    const out = `out.${exported_.name.split(".").pop()!}`;
+    execFileSync(process.execPath, [
+      join(dist, "cli.js"), "deform", path(name), "--script", path("edit.json"), "--out", path(out), "--quiet",
+    ]);
+    const { read } = (await import(join(dist, "io.js"))) as typeof import("../../bindings/js/io.ts");
+    const [ours, theirs] = [
+      await read(readFileSync(path(`page-${exported_.name}`)), exported_.name),
+      await read(readFileSync(path(out)), out),
+    ];
+    expect(farthest(ours.positions, positions)).toBeLessThan(1e-6 * diagonal);
+    expect(farthest(theirs.positions, positions)).toBeLessThan(1e-6 * diagonal);
+    expect([ours.faceVertices, ours.faceOffsets, ours.texcoords, ours.colors]).toEqual([
+      theirs.faceVertices, theirs.faceOffsets, theirs.texcoords, theirs.colors,
+    ]);
+    const opened = await read(typeof content === "string" ? new TextEncoder().encode(content) : content, name);
+    expect(await ask((hook) => hook.triangles())).toEqual(Array.from(opened.triangles));
+    rmSync(folder, { recursive: true });
+  },
+);
 
 test("a large file is read in the worker, with a percentage, and can be stopped", async () => {
   const lines = Array.from({ length: 120_000 }, (_, v) => `v ${v % 400} ${Math.floor(v / 400)} ${Math.sin(v / 50)}`);
@@ -282,10 +348,17 @@ test("a large file is read in the worker, with a percentage, and can be stopped"
   expect(await demo.page.locator("#reading").isHidden()).toBe(true);
 
   // Stopped as soon as it is under way.
-  await demo.page.evaluate(() => new MutationObserver(() => document.querySelector<HTMLElement>("#reading-cancel")!.click())
-    .observe(document.querySelector("#reading span")!, { childList: true, characterData: true, subtree: true }));
+  await demo.page.evaluate(() =>
+    new MutationObserver(() => document.querySelector<HTMLElement>("#reading-cancel")!.click()).observe(
+      document.querySelector("#reading span")!, { childList: true, characterData: true, subtree: true },
+    ),
+  );
   await demo.page.locator("#file").setInputFiles({ name: "more.obj", mimeType: "text/plain", buffer });
-  await demo.page.waitForFunction(() => document.querySelector("#stage")!.getAttribute("aria-busy") === "false" && document.querySelector<HTMLElement>("#reading")!.hidden);
+  await demo.page.waitForFunction(
+    () =>
+      document.querySelector("#stage")!.getAttribute("aria-busy") === "false" &&
+      document.querySelector<HTMLElement>("#reading")!.hidden,
+  );
   expect((await shape()).name).toBe("many.obj");
   expect(await demo.page.locator("#notice").isHidden()).toBe(true);
 });

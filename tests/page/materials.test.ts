@@ -25,32 +25,37 @@ interface Script {
   steps: { method: string; options: Record<string, unknown>; drag?: { options?: Record<string, unknown> }[] }[];
 }
 
-test.each(["arap", "edge-material"])("%s: the handle is met exactly, the fixed region stays, undo goes back", async (method) => {
-  await setMethod(method);
-  const [rest, fixed] = [await ask((hook) => hook.rest()), await ask((hook) => hook.fixed())];
-  expect(farthest(rest, await demo.positions())).toBeLessThan(1e-5 * (await diagonal()));
-  const handle = await demo.handle();
-  await demo.drag(handle, { x: handle.x + 40, y: handle.y - 90 });
-  const now = await demo.positions();
-  expect(farthest(rest, now, handle.vertices)).toBeGreaterThan(0.05 * (await diagonal()));
-  expect(farthest(rest, now, fixed)).toBeLessThan(1e-6 * (await diagonal()));
-  const moved = await demo.handle();
-  expect(Math.hypot(moved.x - handle.x - 40, moved.y - handle.y + 90)).toBeLessThan(1);
-  const script = (await ask((hook) => hook.script())) as Script;
-  expect(script.steps[0]!.method).toBe(method);
-  expect(farthest((await replayed()).positions, now)).toBeLessThan(1e-6 * (await diagonal()));
-  await demo.shot(`method-${method}`);
-  await demo.press("Control+z");
-  expect(farthest(rest, await demo.positions())).toBeLessThan(1e-4 * (await diagonal()));
-  await demo.press("Control+z");
-  expect(await demo.page.locator("#method-choice").inputValue()).toBe("embedded-graph");
-});
+test.each(["arap", "edge-material"])(
+  "%s: the handle is met exactly, the fixed region stays, undo goes back",
+  async (method) => {
+    await setMethod(method);
+    const [rest, fixed] = [await ask((hook) => hook.rest()), await ask((hook) => hook.fixed())];
+    expect(farthest(rest, await demo.positions())).toBeLessThan(1e-5 * (await diagonal()));
+    const handle = await demo.handle();
+    await demo.drag(handle, { x: handle.x + 40, y: handle.y - 90 });
+    const now = await demo.positions();
+    expect(farthest(rest, now, handle.vertices)).toBeGreaterThan(0.05 * (await diagonal()));
+    expect(farthest(rest, now, fixed)).toBeLessThan(1e-6 * (await diagonal()));
+    const moved = await demo.handle();
+    expect(Math.hypot(moved.x - handle.x - 40, moved.y - handle.y + 90)).toBeLessThan(1);
+    const script = (await ask((hook) => hook.script())) as Script;
+    expect(script.steps[0]!.method).toBe(method);
+    expect(farthest((await replayed()).positions, now)).toBeLessThan(1e-6 * (await diagonal()));
+    await demo.shot(`method-${method}`);
+    await demo.press("Control+z");
+    expect(farthest(rest, await demo.positions())).toBeLessThan(1e-4 * (await diagonal()));
+    await demo.press("Control+z");
+    expect(await demo.page.locator("#method-choice").inputValue()).toBe("embedded-graph");
+  },
+);
 
 test("a cloth falls from its middle, and comes to rest; without gravity it does not move", async () => {
   await demo.choose("cloth");
   await demo.idle();
   expect(await ask((hook) => hook.shape().vertices)).toBe(61 * 61);
-  const [rest, now, fixed] = [await ask((hook) => hook.rest()), await demo.positions(), await ask((hook) => hook.fixed())];
+  const [rest, now, fixed] = [
+    await ask((hook) => hook.rest()), await demo.positions(), await ask((hook) => hook.fixed()),
+  ];
   const corner = 0;
   expect(now[3 * corner + 1]! - rest[3 * corner + 1]!).toBeLessThan(-0.3);
   expect(now.filter((_, i) => i % 3 === 1).every((y) => y < 0.05)).toBe(true);
@@ -86,9 +91,16 @@ test("the grain is painted with strokes, and goes into the script", async () => 
   await demo.page.locator("#option-field").selectOption("painted");
   await demo.idle();
   await demo.page.locator("#tool-grain").click();
-  const [from, to] = await demo.page.evaluate(() => [[-0.1, 0.9, 0.3], [0.1, 0.5, 0.4]].map((p) => window.pliantDemo.project(p as [number, number, number])));
+  const [from, to] = await demo.page.evaluate(() =>
+    [[-0.1, 0.9, 0.3], [0.1, 0.5, 0.4]].map((p) => window.pliantDemo.project(p as [number, number, number])),
+  );
   await demo.drag(from!, to!);
-  const { steps } = (await ask((hook) => hook.script())) as { steps: { options: { field: { strokes: number[][][] } }; drag?: { options?: { field: { strokes: number[][][] } } }[] }[] };
+  const { steps } = (await ask((hook) => hook.script())) as {
+    steps: {
+      options: { field: { strokes: number[][][] } };
+      drag?: { options?: { field: { strokes: number[][][] } } }[];
+    }[];
+  };
   const { field } = steps[0]!.drag?.at(-1)?.options ?? steps[0]!.options;
   expect(field.strokes).toHaveLength(1);
   expect(field.strokes[0]!.length).toBeGreaterThan(2);
@@ -113,8 +125,9 @@ test("what is painted as fixed is held where it is, also where it is bent", asyn
   await demo.page.locator("#tool-fix").click();
   const beside = await ask((hook) => {
     const p = hook.rest();
-    const place = (v: number) => Math.hypot(p[3 * v]! + 0.62, p[3 * v + 1]! - 1, p[3 * v + 2]! - 0.5); // in front of the elbow
-    return hook.vertexAt([...Array(p.length / 3).keys()].reduce((best, v) => (place(v) < place(best) ? v : best)));
+    const fromElbow = (v: number) => Math.hypot(p[3 * v]! + 0.62, p[3 * v + 1]! - 1, p[3 * v + 2]! - 0.5);
+    const vertices = [...Array(p.length / 3).keys()];
+    return hook.vertexAt(vertices.reduce((best, v) => (fromElbow(v) < fromElbow(best) ? v : best)));
   });
   const under = await demo.page.evaluate(([px, py]) => window.pliantDemo.pick(px!, py!), [beside.x, beside.y]);
   expect(under).toBeGreaterThanOrEqual(0);

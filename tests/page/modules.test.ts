@@ -8,7 +8,9 @@ import { remesh } from "../../web-demo/shapes/remesh.mjs";
 // @ts-expect-error: the same
 import { ball, tube } from "../../web-demo/shapes/parts.mjs";
 import { History } from "../../web-demo/src/edit/history.ts";
-import { asTransform, atRest, bestMotion, quaternionOf, rotated, rotationVector, type Vec3 } from "../../web-demo/src/edit/motion.ts";
+import {
+  asTransform, atRest, bestMotion, quaternionOf, rotated, rotationVector, type Vec3,
+} from "../../web-demo/src/edit/motion.ts";
 import { shared } from "../../bindings/js/edit/same.ts";
 import { bumpyPlane } from "../../web-demo/src/shapes/bumpy_plane.ts";
 import { decodeMesh, type PlainMesh } from "../../web-demo/src/shapes/decode.ts";
@@ -40,7 +42,9 @@ describe("motions", () => {
     let motion = atRest;
     for (let i = 0; i < 45; i++) motion = rotated(motion, [0, 0, 1], Math.PI / 18);
     expect(motion.rotation[2]).toBeCloseTo(2.5 * Math.PI, 9);
-    expect(asTransform(motion, [1, 2, 3], 3).rotate).toMatchObject({ degrees: expect.closeTo(450, 6), about: [1, 2, 3] });
+    expect(asTransform(motion, [1, 2, 3], 3).rotate).toMatchObject({
+      degrees: expect.closeTo(450, 6), about: [1, 2, 3],
+    });
     for (let i = 0; i < 45; i++) motion = rotated(motion, [0, 0, 1], -Math.PI / 18);
     expect(Math.hypot(...motion.rotation)).toBeLessThan(1e-9);
   });
@@ -56,7 +60,12 @@ describe("motions", () => {
     const rest = Float64Array.from({ length: 60 }, (_, i) => Math.sin(7 * i) + (i % 3));
     const turn = quaternionOf([0.9, -1.4, 1.2]);
     const now = rest.slice();
-    for (let v = 0; v < 20; v++) new Vector3().fromArray(rest, 3 * v).applyQuaternion(turn).add(new Vector3(3, -1, 2)).toArray(now, 3 * v);
+    for (let v = 0; v < 20; v++)
+      new Vector3()
+        .fromArray(rest, 3 * v)
+        .applyQuaternion(turn)
+        .add(new Vector3(3, -1, 2))
+        .toArray(now, 3 * v);
     const vertices = Array.from({ length: 20 }, (_, v) => v);
     const motion = bestMotion(rest, now, vertices);
     expect(Math.abs(quaternionOf(motion.rotation).dot(turn))).toBeCloseTo(1, 9);
@@ -108,13 +117,17 @@ describe("shapes", () => {
       const first = t.indexOf(Math.min(...t));
       return [...t.slice(first), ...t.slice(0, first)].join();
     };
-    const found = Array.from({ length: unpacked.length / 3 }, (_, t) => key([0, 1, 2].map((k) => source[unpacked[3 * t + k]!]!)));
+    const found = Array.from({ length: unpacked.length / 3 }, (_, t) =>
+      key([0, 1, 2].map((k) => source[unpacked[3 * t + k]!]!)),
+    );
     expect(found.toSorted()).toEqual(triangles.map(key).toSorted());
     expect(new Set(shades!.filter((_, i) => i % 3 === 2))).toEqual(new Set([255]));
   });
 
   test("an open mesh is not packed", () => {
-    expect(() => encodeMesh({ points: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]] })).toThrow("no triangle on its other side");
+    expect(() =>
+      encodeMesh({ points: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]] }),
+    ).toThrow("no triangle on its other side");
   });
 
   test("subdivision keeps a closed mesh closed and a ball round", () => {
@@ -131,7 +144,9 @@ describe("shapes", () => {
     const coarse: Mesh = ball([0, 0, 0], 1, 2);
     const { points, triangles }: Mesh = remesh(coarse.points, coarse.triangles, sphere, 0.2);
     expect(points.length - triangles.length / 2).toBe(2);
-    const lengths = triangles.flatMap((t) => t.map((a, i) => Math.hypot(...points[a]!.map((x, k) => x - points[t[(i + 1) % 3]!]![k]!))));
+    const lengths = triangles.flatMap((t) =>
+      t.map((a, i) => Math.hypot(...points[a]!.map((x, k) => x - points[t[(i + 1) % 3]!]![k]!))),
+    );
     expect(Math.min(...lengths)).toBeGreaterThan(0.1);
     expect(Math.max(...lengths)).toBeLessThan(0.3);
     for (const p of points) expect(sphere(p)).toBeCloseTo(0, 6);
@@ -158,10 +173,18 @@ describe("shapes", () => {
     expect([...patchAround(topology, plane.positions, 220, center, 0)]).toEqual([220]);
     const patch = patchAround(topology, plane.positions, 220, center, 0.25);
     expect(patch.length).toBeGreaterThan(9);
-    for (const v of patch) expect(Math.hypot(...center.map((x, k) => x - plane.positions[3 * v + k]!))).toBeLessThanOrEqual(0.25);
+    for (const v of patch) {
+      expect(Math.hypot(...center.map((x, k) => x - plane.positions[3 * v + k]!))).toBeLessThanOrEqual(0.25);
+    }
     // The same surface as loose triangles: still joined, by position.
     const positions = Float32Array.from(plane.triangles, (_, i) => i).length;
-    const soup = { ...plane, positions: Float32Array.from([...plane.triangles].flatMap((v) => [...plane.positions.subarray(3 * v, 3 * v + 3)])), triangles: Uint32Array.from({ length: positions }, (_, i) => i) };
+    const soup = {
+      ...plane,
+      positions: Float32Array.from(
+        [...plane.triangles].flatMap((v) => [...plane.positions.subarray(3 * v, 3 * v + 3)]),
+      ),
+      triangles: Uint32Array.from({ length: positions }, (_, i) => i),
+    };
     const seed = plane.triangles.indexOf(220);
     const loose = patchAround(topologyOf(soup), soup.positions, seed, center, 0.25);
     expect(new Set([...loose].map((i) => plane.triangles[i]))).toEqual(new Set(patch));
@@ -174,8 +197,12 @@ test("nodes of a rigidly moved graph have no energy, those of a stretched one ha
   const [c, s] = [Math.cos(1), Math.sin(1)];
   const turn = [c, -s, 0, s, c, 0, 0, 0, 1];
   const moved = nodes.map(([x, y, z]) => [c * x! - s * y! - x! + 5, s * x! + c * y! - y!, 0 * z!]);
-  expect(Math.max(...nodeEnergies({ nodes, edges, rotations: nodes.map(() => turn), translations: moved }, 1))).toBeLessThan(1e-24);
+  expect(
+    Math.max(...nodeEnergies({ nodes, edges, rotations: nodes.map(() => turn), translations: moved }, 1)),
+  ).toBeLessThan(1e-24);
   const stretched = nodes.map(([x]) => [x!, 0, 0]);
   const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
-  expect(nodeEnergies({ nodes, edges, rotations: nodes.map(() => identity), translations: stretched }, 1)[1]).toBeGreaterThan(1);
+  expect(
+    nodeEnergies({ nodes, edges, rotations: nodes.map(() => identity), translations: stretched }, 1)[1],
+  ).toBeGreaterThan(1);
 });

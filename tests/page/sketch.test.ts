@@ -23,7 +23,8 @@ async function stroke(points: Point[]): Promise<void> {
 }
 const limb = async () => (await ask((hook) => hook.limb()))!;
 /** Vertices by what the stroke made of them. */
-const labelled = (labels: number[], wanted: (label: number) => boolean) => [...labels.keys()].filter((v) => wanted(labels[v]!));
+const labelled = (labels: number[], wanted: (label: number) => boolean) =>
+  [...labels.keys()].filter((v) => wanted(labels[v]!));
 
 describe.each(ways)("%s", (how) => {
   test("a stroke along an arm chooses it, a second bends it there", async () => {
@@ -233,14 +234,18 @@ test("morph, smoothing, refinement, mirror and the curves", async () => {
   await demo.page.locator("#mirror").check();
   await demo.idle();
   const both = await demo.positions();
-  const other = [...before.keys()].filter((i) => i % 3 === 0 && before[i]! > 0.4 && before[i + 1]! > 0.7).map((i) => i / 3);
+  const other = [...before.keys()]
+    .filter((i) => i % 3 === 0 && before[i]! > 0.4 && before[i + 1]! > 0.7)
+    .map((i) => i / 3);
   expect(farthest(before, both, other)).toBeGreaterThan(0.8 * tip);
 
   await demo.page.locator("#curves summary").click();
   await demo.page.locator('.knot[aria-label="Thickness at 4 of 4"]').focus();
   await demo.press(...Array<string>(12).fill("ArrowUp"));
   expect(farthest(both, await demo.positions())).toBeGreaterThan(0.01 * size);
-  const { steps: [{ scale }] } = (await ask((hook) => hook.script())) as { steps: [{ scale: { profile: [number, number][] } }] };
+  const {
+    steps: [{ scale }],
+  } = (await ask((hook) => hook.script())) as { steps: [{ scale: { profile: [number, number][] } }] };
   expect(scale.profile.at(-1)![1]).toBeCloseTo(1.6, 6); // every press counts, also while the one before is carried out
   await demo.page.locator("#keep-length").uncheck();
   await stroke([[-0.34, 1.04, 0.14], [-0.8, 1, 0.16], [-1.3, 1.3, 0.2], [-1.4, 1.9, 0.24]]);
@@ -285,7 +290,9 @@ test("a pen draws with all its samples; the palm beside it does nothing", async 
   const touch = await touchScreen(demo.page);
   const places = await onPage(arm);
   const pen = (type: "mousePressed" | "mouseMoved" | "mouseReleased", { x, y }: Place) =>
-    client.send("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: type === "mouseReleased" ? 0 : 1, pointerType: "pen", clickCount: 1 });
+    client.send("Input.dispatchMouseEvent", {
+      type, x, y, button: "left", buttons: type === "mouseReleased" ? 0 : 1, pointerType: "pen", clickCount: 1,
+    });
   await pen("mousePressed", places[0]!);
   await pen("mouseMoved", places[1]!);
   const palm = { x: places[0]!.x + 160, y: places[0]!.y + 40, radiusX: 40, radiusY: 50 };
@@ -306,7 +313,9 @@ test("one finger draws, two turn the view", async () => {
   await touch("touchStart", places[0]!);
   for (const [i, to] of places.slice(1).entries()) {
     const from = places[i]!;
-    for (const t of [0.25, 0.5, 0.75, 1]) await touch("touchMove", { x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) });
+    for (const t of [0.25, 0.5, 0.75, 1]) {
+      await touch("touchMove", { x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) });
+    }
   }
   await touch("touchEnd");
   await demo.idle();

@@ -100,7 +100,9 @@ function flipForValence(s) {
     const n0 = t0.map((v) => (v === a ? d : v)); // a, b, c with a -> d: d, b, c
     const n1 = t1.map((v) => (v === b ? c : v));
     const before = s.normal(t0);
-    if ([n0, n1].some((t) => dot(s.normal(t), before) <= 0.5 * Math.hypot(...s.normal(t)) * Math.hypot(...before))) continue;
+    if ([n0, n1].some((t) => dot(s.normal(t), before) <= 0.5 * Math.hypot(...s.normal(t)) * Math.hypot(...before))) {
+      continue;
+    }
     s.set(shared[0], n0);
     s.set(shared[1], n1);
   }

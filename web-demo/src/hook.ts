@@ -42,7 +42,10 @@ export function installHook(app: App): void {
     rest: () => [...present.doc.opened.positions],
     triangles: () => [...present.doc.opened.triangles],
     fixed: () => [...present.doc.fixed],
-    handles: () => present.doc.handles.filter((h) => !h.held).map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
+    handles: () =>
+      present.doc.handles
+        .filter((h) => !h.held)
+        .map((h) => ({ id: h.id, name: h.name, vertices: [...h.vertices], ...onPage(placeOf(h)) })),
     shape: () => ({
       id: present.doc.shape.id, name: present.doc.shape.name, vertices: present.shown.positions.length / 3,
       triangles: present.shown.triangles.length / 3, diagonal: app.diagonal,
@@ -54,8 +57,12 @@ export function installHook(app: App): void {
     limb: () => {
       const { sketched } = present;
       if (!sketched) return undefined;
-      const points = Array.from({ length: sketched.target.length / 3 }, (_, i) => new Vector3().fromArray(sketched.target, 3 * i));
-      return { labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.parameters)], curve: points.map(onPage) };
+      const points = Array.from({ length: sketched.target.length / 3 }, (_, i) =>
+        new Vector3().fromArray(sketched.target, 3 * i),
+      );
+      return {
+        labels: [...Array.from(sketched.labels)], s: [...Array.from(sketched.parameters)], curve: points.map(onPage),
+      };
     },
     motion: () => present.motion,
     selected: () => present.selected,

@@ -9,6 +9,7 @@ try {
 } catch (error) {
   const notice = byId("notice");
   notice.hidden = false;
-  notice.querySelector("span")!.textContent = `The page could not start: ${error instanceof Error ? error.message : String(error)}`;
+  notice.querySelector("span")!.textContent =
+    `The page could not start: ${error instanceof Error ? error.message : String(error)}`;
   throw error;
 }

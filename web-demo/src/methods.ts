@@ -1,4 +1,5 @@
-// Deformation methods as the page shows them: its menus and sliders are made from what the package says (`pliant.methods`).
+// Deformation methods as the page shows them: its menus and sliders are made from what the package says
+// (`pliant.methods`).
 import type { Options, OptionValue, Strokes } from "./options.ts";
 import { vertexCount, type ShapeData } from "./shapes/shape.ts";
 import type { WorkerPliant } from "pliant/worker";
@@ -50,7 +51,11 @@ const kinds: Record<string, Kind> = {
   number: { control: (info) => slider(info, info.start ?? info.default) },
   integer: { control: (info) => slider(info, info.start ?? info.default) },
   boolean: { control: (info) => ({ value: Boolean(info.default) }) },
-  choice: { control: (info) => ({ choices: info.choices!.map((name) => [name, inWords(name)] as const), value: String(info.default) }) },
+  choice: {
+    control: (info) => ({
+      choices: info.choices!.map((name) => [name, inWords(name)] as const), value: String(info.default),
+    }),
+  },
   /** How far down. */
   vector: {
     control: (info) => slider(info, 0),
@@ -59,7 +64,10 @@ const kinds: Record<string, Kind> = {
   field: {
     control: () => ({
       value: "none",
-      choices: [["none", "None"], ["x", "Along x"], ["y", "Along y"], ["z", "Along z"], ["max", "Most curved"], ["min", "Least curved"], ["painted", "Painted"]],
+      choices: [
+        ["none", "None"], ["x", "Along x"], ["y", "Along y"], ["z", "Along z"], ["max", "Most curved"],
+        ["min", "Least curved"], ["painted", "Painted"],
+      ],
     }),
     script: fieldOf,
   },
@@ -71,14 +79,21 @@ export const methods: Method[] = [];
 /** Takes what the package says, the first time. */
 export function learnMethods(infos: readonly MethodInfo[]): void {
   if (methods.length > 0) return;
-  methods.push(...infos.map(({ name, title, options, ...info }) => {
-    const shown = Object.entries(options).filter(([, option]) => !option.advanced && kinds[option.type]);
-    return {
-      ...info, id: name, label: title, help: `${info.help} ${info.paper}.`,
-      options: shown.map(([key, option]) => ({ key, label: option.title, help: option.help, info: option, ...kinds[option.type]!.control(option) })),
-      live: shown.every(([, { live }]) => live),
-    };
-  }));
+  methods.push(
+    ...infos.map(({ name, title, options, ...info }) => {
+      const shown = Object.entries(options).filter(([, option]) => !option.advanced && kinds[option.type]);
+      return {
+        ...info,
+        id: name,
+        label: title,
+        help: `${info.help} ${info.paper}.`,
+        options: shown.map(([key, option]) => ({
+          key, label: option.title, help: option.help, info: option, ...kinds[option.type]!.control(option),
+        })),
+        live: shown.every(([, { live }]) => live),
+      };
+    }),
+  );
 }
 
 export function methodOf(id: string): Method {
@@ -87,7 +102,8 @@ export function methodOf(id: string): Method {
   return method;
 }
 
-const ofType = (method: Method, type: string): MethodOption[] => method.options.filter(({ info }) => info.type === type);
+const ofType = (method: Method, type: string): MethodOption[] =>
+  method.options.filter(({ info }) => info.type === type);
 
 /** Where there is a field, `strokes` holds what is painted of it. */
 export function defaultOptions(method: Method): Options {

@@ -94,17 +94,22 @@ export function positive(place: Place, value: unknown): number {
 }
 
 export function notNegative(place: Place, value: unknown): number {
-  return finite(place, value, "a number, 0 or above") >= 0 ? (value as number) : place.fail(value, "a number, 0 or above");
+  return finite(place, value, "a number, 0 or above") >= 0
+    ? (value as number)
+    : place.fail(value, "a number, 0 or above");
 }
 
 /** A part of a whole. */
 export function fraction(place: Place, value: unknown): number {
-  return finite(place, value, "a number from 0 to 1") >= 0 && (value as number) <= 1 ? (value as number) : place.fail(value, "a number from 0 to 1");
+  return finite(place, value, "a number from 0 to 1") >= 0 && (value as number) <= 1
+    ? (value as number)
+    : place.fail(value, "a number from 0 to 1");
 }
 
 /** A reader that takes null as well. */
 export function orNull<T, More extends unknown[]>(reader: (place: Place, value: unknown, ...more: More) => T) {
-  return (place: Place, value: unknown, ...more: More): T | null => (value === null ? null : reader(place, value, ...more));
+  return (place: Place, value: unknown, ...more: More): T | null =>
+    value === null ? null : reader(place, value, ...more);
 }
 
 export function integer(place: Place, value: unknown, min: number, max: number, unit = "an integer"): number {

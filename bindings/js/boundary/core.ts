@@ -107,7 +107,9 @@ function fill(scratch: RawScratch, doubles: ArrayLike<number>, integers: ArrayLi
 
 /** Fills a view of staging memory, which is empty where memory does not suffice. Errors: too-large. */
 export function put(view: Float64Array | Int32Array | Uint8Array, values: ArrayLike<number>): void {
-  if (view.length < values.length) throw new PliantError("too-large", `${values.length} numbers do not fit in what is left of WASM memory`);
+  if (view.length < values.length) {
+    throw new PliantError("too-large", `${values.length} numbers do not fit in what is left of WASM memory`);
+  }
   view.set(values);
 }
 

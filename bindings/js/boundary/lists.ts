@@ -43,7 +43,9 @@ export function unpackValues(names: RawNames, numbersOf: (length: number) => Flo
   const sizes = lines.map(([, kind, rest]) => (kind === "=" ? 0 : Number(rest)));
   const all = numbersOf(sizes.reduce((sum, size) => sum + size, 0));
   let end = 0;
-  return Object.fromEntries(lines.map(([name, kind, rest], i) => [name, kind === "=" ? rest : all.slice(end, (end += sizes[i]))]));
+  return Object.fromEntries(
+    lines.map(([name, kind, rest], i) => [name, kind === "=" ? rest : all.slice(end, (end += sizes[i]))]),
+  );
 }
 
 function concatenated(lists: readonly ArrayLike<number>[]): Float64Array {

@@ -7,7 +7,8 @@
 // Every object is freed with delete().
 
 export interface RawStatus {
-  code: string; // "ok" | "invalid-shape" | "invalid-option" | "invalid-handle" | "parse-error" | "not-solvable" | "too-large"
+  /** "ok" or an `ErrorCode`. */
+  code: string;
   message: string;
 }
 
@@ -124,7 +125,10 @@ export interface RawDeformer extends RawDeformation {
 
 /** Editing by strokes (bind_sketch.cpp). Samples of a stroke and points of a profile are two numbers each. */
 export interface RawSketch extends RawDeformation {
-  /** eye, target, up, fovY or orthographicHeight, width, height; reference; hold, smooth, mirrorPoint and mirrorNormal, partitions (and partitions/sizes), labels. */
+  /**
+   * eye, target, up, fovY or orthographicHeight, width, height; reference; hold, smooth, mirrorPoint and mirrorNormal,
+   * partitions (and partitions/sizes), labels.
+   */
   build(shape: RawShape, drawing: RawNames, scratch: RawScratch): RawStatus;
   /** The camera, and one pixel as the reference: the limb under it, for the next call. Before `build`, too. */
   findLimb(shape: RawShape, drawing: RawNames, scratch: RawScratch): RawStatus;
@@ -191,7 +195,10 @@ export interface RawModule {
 
 /** A file read into memory (bind_io.cpp). */
 export interface RawDocument extends RawObject {
-  /** format: "obj" | "ply" | "off" | "stl" | "xyz"; bytes: the file, which the scratch gives away. To be read by `advance`. */
+  /**
+   * format: "obj" | "ply" | "off" | "stl" | "xyz"; bytes: the file, which the scratch gives away. To be read by
+   * `advance`.
+   */
   begin(format: string, scratch: RawScratch): RawStatus;
   /** Reads a piece of it; `share` 1: all is read. */
   advance(): { status: RawStatus; share: number };
@@ -204,7 +211,9 @@ export interface RawDocument extends RawObject {
   cornerTexcoords(): Float64Array;
   /** sRGB, 3 a vertex; empty where the file has none. */
   colors(): Uint8Array;
-  /** Sets positions (doubles), polygons (integers: count, ids..., count, ids...), for writing what another reader read. */
+  /**
+   * Sets positions (doubles), polygons (integers: count, ids..., count, ids...), for writing what another reader read.
+   */
   assign(scratch: RawScratch): RawStatus;
   /** Sets texture coordinates, 2 a corner (doubles). */
   assignTexcoords(scratch: RawScratch): RawStatus;
@@ -217,7 +226,9 @@ export interface RawDocument extends RawObject {
 /** Streams a file through, replacing coordinates and keeping every other byte (bind_io.cpp). */
 export interface RawRewriter extends RawObject {
   open(format: string): RawStatus;
-  /** bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found. */
+  /**
+   * bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found.
+   */
   push(scratch: RawScratch, last: boolean): { status: RawStatus; points: Float64Array };
   /** doubles: the new coordinates of the last push, as many. `bytes` is what to write. */
   emit(scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };

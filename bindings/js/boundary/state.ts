@@ -96,7 +96,9 @@ function packHandles(place: Place, value: unknown): PackedHandles {
     const handle = fields(place.item(i), item, ["vertices", "targets"]);
     const vertices = Array.from(list(place.item(i).at("vertices"), handle.vertices));
     const targets = Array.from(list(place.item(i).at("targets"), handle.targets));
-    if (vertices.length !== targets.length) place.item(i).reject(`has ${vertices.length} vertices and ${targets.length} targets; expected as many`);
+    if (vertices.length !== targets.length) {
+      place.item(i).reject(`has ${vertices.length} vertices and ${targets.length} targets; expected as many`);
+    }
     return { vertices, targets };
   });
   return {
@@ -106,12 +108,19 @@ function packHandles(place: Place, value: unknown): PackedHandles {
   };
 }
 
-/** Fills `raw` from a state with fields that `like` has too, tables of the same deformation; it may have fewer, and `others`, which are left out. */
-export function writeTables(core: Core, raw: RawState, place: Place, state: unknown, like: Table[], others: readonly string[]): void {
+/**
+ * Fills `raw` from a state with fields that `like` has too, tables of the same deformation; it may have fewer, and
+ * `others`, which are left out.
+ */
+export function writeTables(
+  core: Core, raw: RawState, place: Place, state: unknown, like: Table[], others: readonly string[],
+): void {
   const tops = [...new Set([...like.map((table) => table.name.split("/")[0]), ...others])];
   const given: Nested = { ...fields(place, state, tops, "field of this state") };
   for (const name of records) {
-    const columns = like.filter((table) => table.name.startsWith(`${name}/`)).map((table) => table.name.slice(name.length + 1));
+    const columns = like
+      .filter((table) => table.name.startsWith(`${name}/`))
+      .map((table) => table.name.slice(name.length + 1));
     if (columns.length > 0 && given[name] !== undefined) given[name] = toColumns(place.at(name), given[name], columns);
   }
   if (given.handles !== undefined) given.handles = packHandles(place.at("handles"), given.handles);

@@ -9,7 +9,9 @@ export function readSignal(place: Place, value: unknown): AbortSignal | undefine
 }
 
 export function readCallback<T>(place: Place, value: unknown): T | undefined {
-  return value === undefined || typeof value === "function" ? (value as T | undefined) : place.fail(value, "a function");
+  return value === undefined || typeof value === "function"
+    ? (value as T | undefined)
+    : place.fail(value, "a function");
 }
 
 export function throwIfAborted(signal: AbortSignal | undefined): void {

@@ -36,11 +36,18 @@ export function readInitOptions(value: unknown): InitOptions {
   return options;
 }
 
-/** The module the options name, or the one `beside` finds. Errors: load-failed, or invalid-option for bytes that are none. */
+/**
+ * The module the options name, or the one `beside` finds. Errors: load-failed, or invalid-option for bytes that are
+ * none.
+ */
 export async function compile(options: InitOptions, beside: () => Promise<Binary>): Promise<WebAssembly.Module> {
   const { wasmUrl, wasmBinary, wasmModule } = options;
   if (wasmModule) return wasmModule;
-  const source = wasmUrl ? `the WASM at ${absolute(wasmUrl).href}` : wasmBinary ? "wasmBinary" : "the WASM of the package";
+  const source = wasmUrl
+    ? `the WASM at ${absolute(wasmUrl).href}`
+    : wasmBinary
+      ? "wasmBinary"
+      : "the WASM of the package";
   let binary: Binary | undefined;
   try {
     binary = wasmBinary ?? (await (wasmUrl ? fetchBinary(absolute(wasmUrl)) : beside()));
@@ -53,15 +60,22 @@ export async function compile(options: InitOptions, beside: () => Promise<Binary
   }
 }
 
-/** Starts emscripten's glue on a compiled module: it loads nothing by itself. Errors: invalid-option for a module of another origin. */
-export async function instantiate<T extends { Scratch?: unknown }>(factory: ModuleFactory<T>, module: WebAssembly.Module): Promise<T> {
+/**
+ * Starts emscripten's glue on a compiled module: it loads nothing by itself. Errors: invalid-option for a module of
+ * another origin.
+ */
+export async function instantiate<T extends { Scratch?: unknown }>(
+  factory: ModuleFactory<T>, module: WebAssembly.Module,
+): Promise<T> {
   try {
     return await new Promise((resolve, reject) => {
       const instantiateWasm = (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
         WebAssembly.instantiate(module, imports).then(done).catch(reject);
         return {};
       };
-      factory({ instantiateWasm }).then((raw) => (raw.Scratch ? resolve(raw) : reject(new Error("it lacks what is needed"))), reject);
+      factory({ instantiateWasm }).then(
+        (raw) => (raw.Scratch ? resolve(raw) : reject(new Error("it lacks what is needed"))), reject,
+      );
     });
   } catch (error) {
     throw notOurs("the WASM module", error);

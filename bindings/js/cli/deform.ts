@@ -23,7 +23,9 @@ import type { Invocation } from "./usage.js";
 const pieceSize = 4 << 20;
 
 /** Writes into `outputs`, which the caller keeps or discards. */
-export async function deform(pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal): Promise<void> {
+export async function deform(
+  pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal,
+): Promise<void> {
   const { operands: [shapePath], files, flags } = invocation;
   checkCarry(files.carry, files["carry-out"]);
   const format = formatOf(files.out!, formats);
@@ -52,10 +54,14 @@ export async function deform(pliant: Pliant, core: Core, invocation: Invocation,
 }
 
 function checkCarry(from: string | undefined, to: string | undefined): void {
-  if ((from === undefined) !== (to === undefined)) throw new Failure("--carry and --carry-out go together; see pliant --help");
+  if ((from === undefined) !== (to === undefined)) {
+    throw new Failure("--carry and --carry-out go together; see pliant --help");
+  }
   if (from === undefined || to === undefined) return;
   const format = formatOf(from, textFormats);
-  if (formatOf(to, textFormats) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+  if (formatOf(to, textFormats) !== format) {
+    throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+  }
 }
 
 /** What moves a surface only has no other points to carry. */
@@ -64,7 +70,8 @@ function checkCarries(path: string, { keyframes: [{ steps }] }: ScriptPlan): voi
     const solved = step.kind === "place" ? undefined : step.kind === "sketch" ? step.finish?.options : step.options;
     if (solved && readMethod(step.place, solved.method).carries) continue;
     const method = solved?.method ?? step.kind;
-    throw new Failure(`${path}: ${step.place.at("method").path} is "${method}", which moves the surface and not the space around it; --carry expects a method that deforms space`);
+    const found = `${step.place.at("method").path} is "${method}", which moves the surface and not the space around it`;
+    throw new Failure(`${path}: ${found}; --carry expects a method that deforms space`);
   }
 }
 
@@ -87,7 +94,9 @@ async function onScript(path: string, work: () => Promise<void>): Promise<void> 
 
 function showSolve(progress: Progress, { frame, frames, step, steps, iteration, energy }: EditProgress): void {
   const done = (frame + step / steps) / frames;
-  const where = [frames > 1 && `frame ${frame + 1}/${frames}`, steps > 1 && `step ${step + 1}/${steps}`, `iteration ${iteration}`];
+  const where = [
+    frames > 1 && `frame ${frame + 1}/${frames}`, steps > 1 && `step ${step + 1}/${steps}`, `iteration ${iteration}`,
+  ];
   progress.show(done, 1, `${where.filter(Boolean).join(", ")}, energy ${energy.toPrecision(4)}`);
 }
 
@@ -97,7 +106,13 @@ class Frames {
   readonly #animated: boolean;
   #count = 0;
 
-  constructor(readonly file: ShapeFile, readonly out: string, readonly format: string, readonly plan: ScriptPlan, readonly outputs: Outputs) {
+  constructor(
+    readonly file: ShapeFile,
+    readonly out: string,
+    readonly format: string,
+    readonly plan: ScriptPlan,
+    readonly outputs: Outputs,
+  ) {
     const numbered = /%0?\d*d/.test(out);
     this.#animated = plan.frames !== undefined && format === "glb" && !numbered;
     if (plan.frames !== undefined && !numbered && !this.#animated) {
@@ -107,7 +122,11 @@ class Frames {
 
   async add({ positions, time, refinement }: FinishedEdit): Promise<void> {
     if (this.#animated) this.#kept.push({ positions, time });
-    else await this.outputs.write(this.#path(), await this.#encoded(() => written(this.file, `shape.${this.format}`, positions, refinement)));
+    else {
+      await this.outputs.write(
+        this.#path(), await this.#encoded(() => written(this.file, `shape.${this.format}`, positions, refinement)),
+      );
+    }
     ++this.#count;
   }
 
@@ -121,7 +140,9 @@ class Frames {
   /** Printed as in C: %d, %4d, %04d. */
   #path(): string {
     if (this.plan.frames === undefined) return this.out;
-    return this.out.replace(/%(0?)(\d*)d/, (_, zero, width) => String(this.#count + 1).padStart(Number(width), zero || " "));
+    return this.out.replace(/%(0?)(\d*)d/, (_, zero, width) =>
+      String(this.#count + 1).padStart(Number(width), zero || " "),
+    );
   }
 
   /** What cannot be written is a fault of the output's format. */
@@ -131,7 +152,9 @@ class Frames {
 }
 
 /** Passes a file through the finished deformation, in memory bounded by the size of a piece. */
-async function carry(edit: FinishedEdit, from: string, to: string, outputs: Outputs, progress: Progress, signal: AbortSignal): Promise<void> {
+async function carry(
+  edit: FinishedEdit, from: string, to: string, outputs: Outputs, progress: Progress, signal: AbortSignal,
+): Promise<void> {
   const source = await onFile(from, () => open(from));
   try {
     const target = await outputs.open(to);
@@ -139,7 +162,9 @@ async function carry(edit: FinishedEdit, from: string, to: string, outputs: Outp
       const total = (await source.stat()).size;
       const show = (done: number) => progress.show(done, total, `carrying ${from}`);
       const emit = (piece: Uint8Array) => onFile(to, () => target.writeFile(piece));
-      await onFile(from, () => rewriteStream(shapeFiles.io, formatOf(from, textFormats), piecesOf(source, signal, show), edit.carry, emit));
+      await onFile(from, () =>
+        rewriteStream(shapeFiles.io, formatOf(from, textFormats), piecesOf(source, signal, show), edit.carry, emit),
+      );
     } finally {
       await target.close();
     }
@@ -148,7 +173,9 @@ async function carry(edit: FinishedEdit, from: string, to: string, outputs: Outp
   }
 }
 
-async function* piecesOf(source: FileHandle, signal: AbortSignal, show: (done: number) => void): AsyncGenerator<Uint8Array> {
+async function* piecesOf(
+  source: FileHandle, signal: AbortSignal, show: (done: number) => void,
+): AsyncGenerator<Uint8Array> {
   const buffer = new Uint8Array(pieceSize);
   for (let done = 0; ; show(done)) {
     signal.throwIfAborted();

@@ -9,7 +9,9 @@ export async function onFile<T>(path: string, work: () => T | Promise<T>): Promi
   try {
     return await work();
   } catch (error) {
-    if (error instanceof PliantError && error.code !== "aborted") throw new Failure(`${path}: ${error.message}`, { cause: error });
+    if (error instanceof PliantError && error.code !== "aborted") {
+      throw new Failure(`${path}: ${error.message}`, { cause: error });
+    }
     throw isSystemError(error) ? new Failure(`${path}: ${describe(error)}`, { cause: error }) : error;
   }
 }

@@ -28,7 +28,9 @@ function boundsOf(positions: Float64Array): { min: number[]; max: number[] } {
   return { min, max };
 }
 
-export async function compare(pliant: Pliant, { operands: [restPath, deformedPath], flags }: Invocation): Promise<string> {
+export async function compare(
+  pliant: Pliant, { operands: [restPath, deformedPath], flags }: Invocation,
+): Promise<string> {
   const [rest, deformed] = [await readShape(restPath), await readShape(deformedPath)];
   const [from, to] = [rest.positions.length / 3, deformed.positions.length / 3];
   if (from !== to) throw new Failure(`${deformedPath}: has ${to} vertices; expected ${from}, as ${restPath}`);
@@ -44,7 +46,9 @@ function flat({ stretch, ...others }: Quality): Record<string, unknown> {
 
 /** Names in words, one value a line. */
 function table(values: Record<string, unknown>): string {
-  const rows = Object.entries(values).map(([name, value]) => [name.replace(/([A-Z])/g, " $1").toLowerCase(), text(value)]);
+  const rows = Object.entries(values).map(([name, value]) => [
+    name.replace(/([A-Z])/g, " $1").toLowerCase(), text(value),
+  ]);
   const width = Math.max(...rows.map(([name]) => name.length));
   return rows.map(([name, value]) => `${name.padEnd(width)}  ${value}`).join("\n");
 }

@@ -8,12 +8,19 @@ export function parseJson(path: string, text: string): unknown {
   } catch {
     const at = errorPosition(text);
     const before = text.slice(0, at).split("\n");
-    const found = at < text.length ? `unexpected ${JSON.stringify(String.fromCodePoint(text.codePointAt(at)!))}` : "unexpected end";
+    const found =
+      at < text.length ? `unexpected ${JSON.stringify(String.fromCodePoint(text.codePointAt(at)!))}` : "unexpected end";
     throw new Failure(`${path}:${before.length}:${before[before.length - 1].length + 1}: ${found}; expected JSON`);
   }
 }
 
-const token = /[ \t\n\r]*(?:([[\]{},:])|("(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"|-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?|true|false|null)(?![\w.+-]))/y;
+const blanks = /[ \t\n\r]*/;
+const string = /"(?:[^"\\\u0000-\u001f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"/;
+const number = /-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?/;
+/** Blanks, then a mark (1) or a value (2). */
+const token = new RegExp(
+  `${blanks.source}(?:([[\\]{},:])|(${string.source}|${number.source}|true|false|null)(?![\\w.+-]))`, "y",
+);
 
 /** Where text that is not JSON stops being JSON: the first token that does not fit. */
 export function errorPosition(text: string): number {

@@ -19,7 +19,8 @@ export function formatOf<Format extends FileFormat>(path: string, among: readonl
   const format = extname(path).slice(1).toLowerCase();
   const known = among.find((name) => name === format);
   if (known) return known;
-  throw new Failure(`${path}: the extension is ${format ? `.${format}` : "missing"}; expected ${among.map((name) => `.${name}`).join(" ")}`);
+  const expected = among.map((name) => `.${name}`).join(" ");
+  throw new Failure(`${path}: the extension is ${format ? `.${format}` : "missing"}; expected ${expected}`);
 }
 
 /** Errors: a Failure that names the file. */
@@ -29,17 +30,25 @@ export async function readShape(path: string): Promise<ShapeFile> {
   try {
     return await files.read(bytes, path);
   } catch (error) {
-    throw error instanceof PliantError ? new Failure(error.message, { cause: error }) : error; // it begins with the path
+    // Its message begins with the path.
+    throw error instanceof PliantError ? new Failure(error.message, { cause: error }) : error;
   }
 }
 
-/** The file with its vertices elsewhere, as the name of another says; with a refinement, what a mesh has: positions, faces, texture coordinates and colours. */
-export function written(file: ShapeFile, path: string, positions: Float64Array, refinement?: Refinement): Promise<Uint8Array> {
+/**
+ * The file with its vertices elsewhere, as the name of another says; with a refinement, what a mesh has: positions,
+ * faces, texture coordinates and colours.
+ */
+export function written(
+  file: ShapeFile, path: string, positions: Float64Array, refinement?: Refinement,
+): Promise<Uint8Array> {
   return files.write({ ...(refinement ? refined(file, refinement) : file), positions }, path);
 }
 
 /** One .glb that shows positions one after the other, at times in seconds. */
-export async function animated({ source, format, ...file }: ShapeFile, frames: Float64Array[], times: number[]): Promise<Uint8Array> {
+export async function animated(
+  { source, format, ...file }: ShapeFile, frames: Float64Array[], times: number[],
+): Promise<Uint8Array> {
   const { animateGlb } = await import("../io/glb.js");
   return animateGlb(file, format === "glb" ? new Uint8Array(await source.arrayBuffer()) : undefined, frames, times);
 }

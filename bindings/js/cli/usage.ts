@@ -55,8 +55,11 @@ export function readArguments(argv: string[]): Invocation {
   }
   const missing = command.files.find((file) => file.endsWith("!") && values[file.slice(0, -1)] === undefined);
   if (missing) fail(`${name} needs --${missing.slice(0, -1)}`);
-  const pick = <T>(keys: readonly string[]) => Object.fromEntries(keys.map((key) => [key, values[key] as T | undefined]));
-  return { command: name, operands: positionals, files: pick<string>(names), flags: pick<boolean>([...command.flags, "quiet"]) };
+  const pick = <T>(keys: readonly string[]) =>
+    Object.fromEntries(keys.map((key) => [key, values[key] as T | undefined]));
+  return {
+    command: name, operands: positionals, files: pick<string>(names), flags: pick<boolean>([...command.flags, "quiet"]),
+  };
 }
 
 function parse(args: string[], options: Record<string, { type: "string" | "boolean" }>) {

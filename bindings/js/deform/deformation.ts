@@ -73,7 +73,10 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
     });
   }
 
-  /** Takes a state saved by the same method over the same shape; what it brings back beside positions is said there. Errors: invalid-option. */
+  /**
+   * Takes a state saved by the same method over the same shape; what it brings back beside positions is said there.
+   * Errors: invalid-option.
+   */
   restore(state: S): void {
     const place = new Place("invalid-option", "state");
     this.#withState((raw, saved) => {

@@ -7,7 +7,10 @@ import type { State } from "../boundary/state.js";
 import { Deformation } from "./deformation.js";
 import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import { Handle } from "./handle.js";
-import { type DeformerOptions, drawing, type LiveOptions, type Method, type MethodName, methodsThat, readLive, readMethod, readOptions } from "../methods/index.js";
+import {
+  type DeformerOptions, drawing, type LiveOptions, type Method, type MethodName, methodsThat, readLive, readMethod,
+  readOptions,
+} from "../methods/index.js";
 import type { RawDeformer } from "../boundary/raw.js";
 import { extentOf, insideOf, type Shape, shapeFor } from "../shape/shape.js";
 
@@ -61,8 +64,8 @@ export let drive: (deformer: Deformer) => {
 };
 
 /**
- * A shape, constraints on it, and a method that finds the deformation. Made by `pliant.deformer`. `reset` keeps handles and
- * the fixed region, targets return to rest; `restore` brings targets back, too, of handles with the same vertices.
+ * A shape, constraints on it, and a method that finds the deformation. Made by `pliant.deformer`. `reset` keeps handles
+ * and the fixed region, targets return to rest; `restore` brings targets back, too, of handles with the same vertices.
  */
 export class Deformer<M extends MethodName = MethodName> extends Deformation<State, RawDeformer> {
   readonly method: M;
@@ -71,7 +74,9 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
   #refined = false;
 
   static {
-    drive = (deformer) => ({ method: deformer.#method, settled: (step) => deformer.#settled(step), refined: () => deformer.#refined });
+    drive = (deformer) => ({
+      method: deformer.#method, settled: (step) => deformer.#settled(step), refined: () => deformer.#refined,
+    });
   }
 
   /** @internal */
@@ -81,10 +86,16 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     if (typeof options !== "object" || options === null) place.fail(options, "an object with a method");
     const method = readMethod(place.at("method"), options.method);
     const read = readOptions(place, options, method, extentOf(shape), ["method"]);
-    const raw = build(core, () => new core.raw.Deformer(), (unbuilt) => {
-      const packed = method.pack(read, place, shape);
-      return insideOf(shape).owned.call((rawShape) => unbuilt.build(rawShape, method.name, ...core.stageValues(packed)));
-    });
+    const raw = build(
+      core,
+      () => new core.raw.Deformer(),
+      (unbuilt) => {
+        const packed = method.pack(read, place, shape);
+        return insideOf(shape).owned.call((rawShape) =>
+          unbuilt.build(rawShape, method.name, ...core.stageValues(packed)),
+        );
+      },
+    );
     super(core, shape, raw, "deformer");
     this.#method = method;
     this.method = method.name as M;
@@ -98,7 +109,10 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     this.owned.accept((raw) => raw.setFixed(this.#core.stage([], ids)));
   }
 
-  /** Adds a handle, at rest until it is moved. Errors: invalid-handle, also for a vertex that is fixed or of another handle. */
+  /**
+   * Adds a handle, at rest until it is moved. Errors: invalid-handle, also for a vertex that is fixed or of another
+   * handle.
+   */
   addHandle(vertices: Iterable<number>): Handle {
     const place = new Place("invalid-handle", "vertices");
     const ids = vertexIds(place, vertices, this.shape.report.vertices);
@@ -142,7 +156,10 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     return this.#step(readTolerance(place, fields(place, options, ["tolerance"])));
   }
 
-  /** Iterates until the method's test holds, and yields to the event loop in between. Errors: as `step`, aborted, disposed. */
+  /**
+   * Iterates until the method's test holds, and yields to the event loop in between. Errors: as `step`, aborted,
+   * disposed.
+   */
   async solve(options: SolveOptions = {}): Promise<Solution> {
     const { tolerance, maxIterations, signal, onProgress } = readSolveOptions(options);
     let iterations = 0;
@@ -192,10 +209,15 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
     return this.owned.call((raw) => raw.counters());
   }
 
-  /** Directions that the material has, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or zero. Errors: not-solvable. */
+  /**
+   * Directions that the material has, 3 numbers a vertex: a unit vector along the surface, its sign without meaning, or
+   * zero. Errors: not-solvable.
+   */
   field(): Float32Array {
     if (!this.#method.draws.includes("field")) {
-      throw new PliantError("not-solvable", `${this.method} has no directions; expected ${methodsThat(drawing("field"))}`);
+      throw new PliantError(
+        "not-solvable", `${this.method} has no directions; expected ${methodsThat(drawing("field"))}`,
+      );
     }
     const { status, points } = this.owned.call((raw) => raw.field());
     accept(status);

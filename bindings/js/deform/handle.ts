@@ -30,7 +30,10 @@ export class Handle {
     return Uint32Array.from(this.#vertices);
   }
 
-  /** Moves it from rest: an empty transform takes it back there. Degrees beyond 180 are honoured. Errors: invalid-handle. */
+  /**
+   * Moves it from rest: an empty transform takes it back there. Degrees beyond 180 are honoured. Errors:
+   * invalid-handle.
+   */
   move(transform: Transform): void {
     const { dimension } = this.#shape;
     const motion = readTransform(new Place("invalid-handle", "transform"), transform, dimension);
@@ -43,14 +46,19 @@ export class Handle {
     this.#call((raw) => raw.moveHandle(this.#id, ...this.#deformer.core.stageValues(packed)));
   }
 
-  /** Moves each vertex to its own target: `shape.dimension` numbers a vertex, in the order of the vertices. Errors: invalid-handle. */
+  /**
+   * Moves each vertex to its own target: `shape.dimension` numbers a vertex, in the order of the vertices. Errors:
+   * invalid-handle.
+   */
   moveTo(targets: ArrayLike<number>): void {
     const place = new Place("invalid-handle", "targets");
     const { dimension } = this.#shape;
     const numbers = coordinates(place, targets, dimension);
     const expected = dimension * this.#vertices.length;
     if (numbers.length !== expected) {
-      place.fail(targets, `${expected} numbers, ${dimension} for each of the handle's ${this.#vertices.length} vertices`);
+      place.fail(
+        targets, `${expected} numbers, ${dimension} for each of the handle's ${this.#vertices.length} vertices`,
+      );
     }
     this.#setTargets(numbers);
   }

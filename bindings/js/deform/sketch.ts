@@ -1,11 +1,16 @@
 // Editing by two strokes: one over a limb, a second where it should go.
 
-import { fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place, vector } from "../boundary/check.js";
+import {
+  fields, filled, finite, flag, type FloatArray, fraction, integer, notNegative, Place, vector,
+} from "../boundary/check.js";
 import { build, type Core } from "../boundary/core.js";
 import type { RawScratch, RawSketch, RawStatus, RawValues } from "../boundary/raw.js";
 import { insideOf, type Shape, shapeFor } from "../shape/shape.js";
 import { Deformation } from "./deformation.js";
-import { type Camera, type Hold, type Mirror, poseOf, type Profile, readCamera, readDrawing, readPairs, readPose, type SketchPose, type Stroke } from "./sketch_input.js";
+import {
+  type Camera, type Hold, type Mirror, poseOf, type Profile, readCamera, readDrawing, readPairs, readPose,
+  type SketchPose, type Stroke,
+} from "./sketch_input.js";
 
 export type { Camera, Hold, Mirror, Profile, SketchPose, Stroke };
 
@@ -13,7 +18,10 @@ export interface SketchOptions {
   camera: Camera;
   /** Drawn along the limb: one end is held, the other moved. */
   reference: Stroke;
-  /** Which end is held: the larger side of the shape, whichever way one draws ("larger", the default; the start where both are about equal), or that where the stroke starts or ends. */
+  /**
+   * Which end is held: the larger side of the shape, whichever way one draws ("larger", the default; the start where
+   * both are about equal), or that where the stroke starts or ends.
+   */
   hold?: Hold;
   /** Lines across the shape; what each cuts off the region becomes a rigid part. */
   partitions?: readonly Stroke[];
@@ -21,7 +29,10 @@ export interface SketchOptions {
   smooth?: boolean;
   /** The same on the limb mirrored in this plane, too. */
   mirror?: Mirror;
-  /** Takes over a region instead of choosing one: a label a vertex, as `labels()` gives them. Not with partitions or mirror. */
+  /**
+   * Takes over a region instead of choosing one: a label a vertex, as `labels()` gives them. Not with partitions or
+   * mirror.
+   */
   labels?: ArrayLike<number>;
 }
 
@@ -46,8 +57,9 @@ export interface Refinement {
 }
 
 /**
- * What `sketch.state()` gives: plain data; fields as in docs/state-and-report.md. A bend takes a vertex v to T(s) + R (v - C(s)): C
- * and T are the reference and the target at s, linear between nodes of equal steps, R turns by its angle about the normal.
+ * What `sketch.state()` gives: plain data; fields as in docs/state-and-report.md. A bend takes a vertex v to T(s) + R
+ * (v - C(s)): C and T are the reference and the target at s, linear between nodes of equal steps, R turns by its angle
+ * about the normal.
  */
 export interface SketchState {
   /** 0 static, 1 region, 2 and above rigid parts; one a vertex of the input. */
@@ -65,7 +77,10 @@ export interface SketchState {
   morph: number;
   /** With a mirror: 0 for a vertex of the drawn side, 1 for one of the mirrored. */
   sides?: number[];
-  /** With twist or scale: middles of the sections, nodes of a curve as `reference`; angles about it and factors of the vertices, applied before the bend. */
+  /**
+   * With twist or scale: middles of the sections, nodes of a curve as `reference`; angles about it and factors of the
+   * vertices, applied before the bend.
+   */
   joints?: number[][];
   twists?: number[];
   scales?: number[];
@@ -81,21 +96,26 @@ export const defaultMaxAdded = 1_000_000;
  * A shape, the region that a stroke chose on it, and its pose. Made by `pliant.sketch`.
  *
  * Bend, twist and scale add up; each call replaces what it set before and is cheap enough for every
- * event of a pen. `reset` keeps the region and smoothing. `restore` takes the pose and the morph of a state over the same
- * reference; vertices that refinement added have to be those of now, and a state without any takes them back.
+ * event of a pen. `reset` keeps the region and smoothing. `restore` takes the pose and the morph of a state over the
+ * same reference; vertices that refinement added have to be those of now, and a state without any takes them back.
  */
 export class Sketch extends Deformation<SketchState, RawSketch> {
   /** @internal */
   constructor(core: Core, shape: Shape, options: SketchOptions) {
     shapeFor(core, shape);
-    if (shape.dimension !== 3) new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
+    if (shape.dimension !== 3) {
+      new Place("invalid-shape", "shape").reject("lies in the plane; expected a mesh in space to sketch on");
+    }
     const drawing = readSketch(options);
     const raw = build(core, () => new core.raw.Sketch(), (unbuilt) =>
       insideOf(shape).owned.call((rawShape) => unbuilt.build(rawShape, ...core.stageValues(drawing))));
     super(core, shape, raw, "sketch");
   }
 
-  /** Another reference stroke over the same region, maybe seen from elsewhere; back to rest. Errors: invalid-option; nothing changes then. */
+  /**
+   * Another reference stroke over the same region, maybe seen from elsewhere; back to rest. Errors: invalid-option;
+   * nothing changes then.
+   */
   redraw(camera: Camera, reference: Stroke): void {
     const drawing = { ...readCamera(option("camera"), camera), reference: readPairs(option("reference"), reference) };
     this.owned.accept((raw) => raw.redraw(...this.owned.core.stageValues(drawing)));
@@ -126,7 +146,10 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     this.owned.call((raw) => raw.unbend());
   }
 
-  /** Twists the limb, right-handed about the stroke's direction, by any angle between its ends. Errors: invalid-option, also where the stroke runs beside the shape. */
+  /**
+   * Twists the limb, right-handed about the stroke's direction, by any angle between its ends. Errors: invalid-option,
+   * also where the stroke runs beside the shape.
+   */
   twist(degrees: number): void {
     const radians = (finite(option("degrees"), degrees, "a finite number of degrees") * Math.PI) / 180;
     this.owned.accept((raw) => raw.twist(radians));
@@ -164,7 +187,10 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     return this.owned.call((raw) => poseOf(this.owned.core.stagedValues((scratch) => raw.pose(scratch))));
   }
 
-  /** Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to the identity. Errors: invalid-option. */
+  /**
+   * Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to
+   * the identity. Errors: invalid-option.
+   */
   setPose(pose: SketchPose, toward?: SketchPose, t = 0): void {
     const from = readPose(option("pose"), pose);
     const to = toward === undefined ? {} : readPose(option("toward"), toward, "toward/");
@@ -174,13 +200,18 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
 
   // -- Refinement. ----------------------------------------------------------------------------------
 
-  /** Splits edges that the pose stretches and bends, again and again; later poses move the added vertices too. `maxAdded`: 1,000,000. Errors: invalid-option, too-large. */
+  /**
+   * Splits edges that the pose stretches and bends, again and again; later poses move the added vertices too.
+   * `maxAdded`: 1,000,000. Errors: invalid-option, too-large.
+   */
   refine(options: { maxAdded?: number } = {}): Refinement {
     const place = option("options");
     const { maxAdded = defaultMaxAdded } = fields(place, options, ["maxAdded"]);
     const most = integer(place.at("maxAdded"), maxAdded, 0, 2 ** 31 - 1);
     const { core } = this.owned;
-    this.owned.accept((raw) => core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)));
+    this.owned.accept((raw) =>
+      core.stageOnce([], insideOf(this.shape).triangles, (scratch) => raw.refine(scratch, most)),
+    );
     return this.refinement!;
   }
 
@@ -191,9 +222,15 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
 
   /** What `refine` added; undefined without it. */
   get refinement(): Refinement | undefined {
-    return this.owned.call((raw) => (raw.added() < 0 ? undefined : {
-      parents: Uint32Array.from(raw.parents()), triangles: raw.triangles().slice(), triangleParents: raw.triangleParents().slice(),
-    }));
+    return this.owned.call((raw) =>
+      raw.added() < 0
+        ? undefined
+        : {
+            parents: Uint32Array.from(raw.parents()),
+            triangles: raw.triangles().slice(),
+            triangleParents: raw.triangleParents().slice(),
+          },
+    );
   }
 
   override get vertices(): number {
@@ -231,7 +268,10 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     return this.into(out, 3, (raw, result) => result.set(raw.rest()));
   }
 
-  /** Targets for any deformer over the same shape. `spacing`: of region vertices, in diagonals of the shape (0.05). Errors: invalid-option. */
+  /**
+   * Targets for any deformer over the same shape. `spacing`: of region vertices, in diagonals of the shape (0.05).
+   * Errors: invalid-option.
+   */
   seed(options: { spacing?: number } = {}): SketchSeed {
     const place = option("options");
     const { spacing = 0.05 } = fields(place, options, ["spacing"]);
@@ -239,7 +279,9 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
     return this.owned.call((raw) => {
       raw.seed(diagonals);
       return {
-        fixed: Uint32Array.from(raw.seedFixed()), vertices: Uint32Array.from(raw.seedVertices()), targets: raw.seedTargets().slice(),
+        fixed: Uint32Array.from(raw.seedFixed()),
+        vertices: Uint32Array.from(raw.seedVertices()),
+        targets: raw.seedTargets().slice(),
       };
     });
   }
@@ -260,10 +302,12 @@ function option(name: string): Place {
 }
 
 /**
- * The limb under a pixel as a reference stroke, from the body to the place under the pixel: for a gesture that begins on a
- * limb and leaves the shape at once. Errors: invalid-option (beside the shape, or no limb there).
+ * The limb under a pixel as a reference stroke, from the body to the place under the pixel: for a gesture that begins
+ * on a limb and leaves the shape at once. Errors: invalid-option (beside the shape, or no limb there).
  */
-export function limbStroke(core: Core, shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> }): [x: number, y: number][] {
+export function limbStroke(
+  core: Core, shape: Shape, options: { camera: Camera; pixel: ArrayLike<number> },
+): [x: number, y: number][] {
   shapeFor(core, shape);
   const { camera, pixel } = fields(option("options"), options, ["camera", "pixel"]);
   const drawing = { ...readCamera(option("camera"), camera), reference: vector(option("pixel"), pixel, 2) };
@@ -284,5 +328,8 @@ function readSketch(value: unknown): RawValues {
   const drawing = readDrawing(option(""), options);
   if (options.labels === undefined) return drawing;
   const given = filled(option("labels"), options.labels, "a label a vertex");
-  return { ...drawing, labels: Array.from(given, (label, i) => integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")) };
+  return {
+    ...drawing,
+    labels: Array.from(given, (label, i) => integer(option("labels").item(i), label, 0, 2 ** 31 - 1, "a label")),
+  };
 }

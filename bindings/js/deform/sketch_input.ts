@@ -1,10 +1,15 @@
 // What a sketch is made from, as callers write it, and as the WASM side takes it.
 
-import { choice, type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector } from "../boundary/check.js";
+import {
+  choice, type Fields, fields, finite, flag, type FloatArray, list, type Place, points, direction, vector,
+} from "../boundary/check.js";
 import { packLists } from "../boundary/lists.js";
 import type { RawValues } from "../boundary/raw.js";
 
-/** CAMERA of docs/edit-script.md. Pixels are square, from the top left corner, y down. Either `fovY` or `orthographicHeight`. */
+/**
+ * CAMERA of docs/edit-script.md. Pixels are square, from the top left corner, y down. Either `fovY` or
+ * `orthographicHeight`.
+ */
 export interface Camera {
   eye: ArrayLike<number>;
   target: ArrayLike<number>;
@@ -21,7 +26,10 @@ export interface Camera {
 /** Samples of a drawn line in pixels: [[x, y], ...], or a typed array of x, y, x, y, ... */
 export type Stroke = readonly ArrayLike<number>[] | FloatArray;
 
-/** A function of the normalised arc length s: points [s, F(s)], s from 0 to 1 ascending; linear between, constant beyond. */
+/**
+ * A function of the normalised arc length s: points [s, F(s)], s from 0 to 1 ascending; linear between, constant
+ * beyond.
+ */
 export type Profile = readonly ArrayLike<number>[] | FloatArray;
 
 /** Which end of a reference stroke is held. */
@@ -54,12 +62,19 @@ export function readCamera(place: Place, value: unknown): RawValues {
     fields(place, value, ["eye", "target", "up", "fovY", "orthographicHeight", "width", "height"]);
   const orthographic = orthographicHeight !== undefined;
   if (orthographic && fovY !== undefined) place.reject("has fovY and orthographicHeight; expected one or the other");
-  if (!orthographic && fovY === undefined) place.reject("has neither fovY nor orthographicHeight; expected one of them");
+  if (!orthographic && fovY === undefined) {
+    place.reject("has neither fovY nor orthographicHeight; expected one of them");
+  }
   const of = (name: string, given: unknown) => vector(place.at(name), given, 3);
   return {
-    eye: of("eye", eye), target: of("target", target), up: of("up", up),
-    ...(orthographic ? { orthographicHeight: finite(place.at("orthographicHeight"), orthographicHeight) } : { fovY: finite(place.at("fovY"), fovY) }),
-    width: finite(place.at("width"), width), height: finite(place.at("height"), height),
+    eye: of("eye", eye),
+    target: of("target", target),
+    up: of("up", up),
+    ...(orthographic
+      ? { orthographicHeight: finite(place.at("orthographicHeight"), orthographicHeight) }
+      : { fovY: finite(place.at("fovY"), fovY) }),
+    width: finite(place.at("width"), width),
+    height: finite(place.at("height"), height),
   };
 }
 
@@ -77,12 +92,16 @@ function readMirror(place: Place, value: unknown): RawValues {
 }
 
 function readPartitions(place: Place, value: unknown): RawValues {
-  return packLists("partitions", Array.from(list(place, value, "lines across the shape"), (line, i) => readPairs(place.item(i), line)));
+  return packLists(
+    "partitions", Array.from(list(place, value, "lines across the shape"), (line, i) => readPairs(place.item(i), line)),
+  );
 }
 
 /** `prefix`: of the names. */
 export function readPose(place: Place, value: unknown, prefix = ""): RawValues {
-  const { heading, turns, length, twist, scale } = fields(place, value, ["heading", "turns", "length", "twist", "scale"]);
+  const { heading, turns, length, twist, scale } = fields(place, value, [
+    "heading", "turns", "length", "twist", "scale",
+  ]);
   const pose = {
     heading: finite(place.at("heading"), heading),
     turns: Array.from(list(place.at("turns"), turns), (turn, i) => finite(place.at("turns").item(i), turn)),
@@ -95,8 +114,15 @@ export function readPose(place: Place, value: unknown, prefix = ""): RawValues {
 /** A pose from the WASM side. */
 export function poseOf(values: RawValues): SketchPose {
   const numbers = (name: keyof SketchPose) => Array.from(values[name] as ArrayLike<number>);
-  const pairs = (name: keyof SketchPose) => numbers(name).flatMap((s, i, all) => (i % 2 === 0 ? [[s, all[i + 1]] as [number, number]] : []));
-  return { heading: numbers("heading")[0], turns: numbers("turns"), length: numbers("length")[0], twist: pairs("twist"), scale: pairs("scale") };
+  const pairs = (name: keyof SketchPose) =>
+    numbers(name).flatMap((s, i, all) => (i % 2 === 0 ? [[s, all[i + 1]] as [number, number]] : []));
+  return {
+    heading: numbers("heading")[0],
+    turns: numbers("turns"),
+    length: numbers("length")[0],
+    twist: pairs("twist"),
+    scale: pairs("scale"),
+  };
 }
 
 /** What a region is chosen by. */

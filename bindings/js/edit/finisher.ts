@@ -79,7 +79,10 @@ export class Finisher {
   }
 }
 
-/** Shares of the pose on the way to it, but the last: in one go a limb may turn so far that a solver takes the short way. */
+/**
+ * Shares of the pose on the way to it, but the last: in one go a limb may turn so far that a solver takes the short
+ * way.
+ */
 function wayTo({ heading, turns, twist }: SketchPose): number[] {
   let angle = heading;
   let largest = Math.abs(heading);

@@ -57,7 +57,9 @@ function since(before: StepReport | undefined, step: StepReport): StepReport {
   const { factorizations, analyses, setupMs } = before;
   const own = {
     ...step,
-    factorizations: step.factorizations - factorizations, analyses: step.analyses - analyses, setupMs: step.setupMs - setupMs,
+    factorizations: step.factorizations - factorizations,
+    analyses: step.analyses - analyses,
+    setupMs: step.setupMs - setupMs,
   };
   return step.finish && before.finish ? { ...own, finish: since(before.finish, step.finish) } : own;
 }

@@ -8,7 +8,9 @@ export function grown(growth: Refinement | undefined, next: Refinement): Refinem
   const parents = new Uint32Array(growth.parents.length + next.parents.length);
   parents.set(growth.parents);
   parents.set(next.parents, growth.parents.length);
-  return { parents, triangles: next.triangles, triangleParents: next.triangleParents.map((t) => growth.triangleParents[t]) };
+  return {
+    parents, triangles: next.triangles, triangleParents: next.triangleParents.map((t) => growth.triangleParents[t]),
+  };
 }
 
 /** Values of the input's vertices, `width` numbers each, and those of the vertices added between them. */

@@ -82,7 +82,9 @@ function stepsAt(keyframes: Keyframe[], time: number): StepPlan[] {
 function stepBetween(a: StepPlan, b: StepPlan, u: number): StepPlan {
   if (a.kind === "sketch" && b.kind === "sketch") return { ...a, toward: { pose: b.pose, share: u } };
   if (a.kind === "solver" && b.kind === "solver") {
-    return { ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.handles[h].goal, u) })) };
+    return {
+      ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.handles[h].goal, u) })),
+    };
   }
   if (a.kind === "place" && b.kind === "place") {
     return { ...a, parts: a.parts.map((part, p) => ({ ...part, goal: between(part.goal, b.parts[p].goal, u)! })) };

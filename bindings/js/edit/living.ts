@@ -60,8 +60,8 @@ export class Edit {
   // -- What is asked for. ---------------------------------------------------------------------------
 
   /**
-   * The document to carry out; or a moment, which comes back at once and exactly. Errors: invalid-script, by all that can
-   * be told without solving; then nothing has changed.
+   * The document to carry out; or a moment, which comes back at once and exactly. Errors: invalid-script, by all that
+   * can be told without solving; then nothing has changed.
    */
   apply(document: EditDocument | EditMoment): void {
     const stages = this.#live;
@@ -110,7 +110,9 @@ export class Edit {
     const known = ["format", "version", "document", "stages"];
     const { version, document, stages } = fields(here, value, known) as Partial<EditMoment>;
     if (version !== 1) here.at("version").fail(version, "1");
-    const moments = Array.from(list(here.at("stages"), stages), (stage, i) => readStage(here.at("stages").item(i), stage));
+    const moments = Array.from(list(here.at("stages"), stages), (stage, i) =>
+      readStage(here.at("stages").item(i), stage),
+    );
     if (document === undefined && moments.length === 0) return { asked: nothing, stood: [], stages: moments };
     const asked = this.#read(document as EditDocument);
     const sources = moments.map(({ source }) => source);
@@ -124,8 +126,8 @@ export class Edit {
 
   /**
    * Solves on: for so long, so many iterations, or to the end. At least one iteration, and no more than one beyond the
-   * time; building a step that takes all the time is a run of its own, with no iteration. Errors: invalid-script for what
-   * only the result of earlier steps brings out, not-solvable, too-large; the last good result stays.
+   * time; building a step that takes all the time is a run of its own, with no iteration. Errors: invalid-script for
+   * what only the result of earlier steps brings out, not-solvable, too-large; the last good result stays.
    */
   run(options: RunOptions = {}): EditRun {
     return this.#run(readRun(fields(place, options, runKeys)));
@@ -144,7 +146,9 @@ export class Edit {
     return { ...(last ?? this.#standing()), iterations: count, converged, milliseconds: performance.now() - begin };
   }
 
-  /** One iteration of the first step that has something to do; undefined: none has, or building it took all the time. */
+  /**
+   * One iteration of the first step that has something to do; undefined: none has, or building it took all the time.
+   */
   #advance(late: () => boolean): EditStep | undefined {
     const stages = this.#live;
     for (const [at, plan] of this.#asked.plans.entries()) {
@@ -215,7 +219,9 @@ export class Edit {
     return output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
   }
 
-  /** Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable. @internal */
+  /**
+   * Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable. @internal
+   */
   carry(points: Float64Array): void {
     this.#live.carry(points);
   }
@@ -279,7 +285,8 @@ export class Edit {
 function readRun({ milliseconds, iterations }: Fields): Required<RunOptions> {
   return {
     milliseconds: milliseconds === undefined ? Infinity : notNegative(place.at("milliseconds"), milliseconds),
-    iterations: iterations === undefined ? Infinity : integer(place.at("iterations"), iterations, 1, Number.MAX_SAFE_INTEGER),
+    iterations:
+      iterations === undefined ? Infinity : integer(place.at("iterations"), iterations, 1, Number.MAX_SAFE_INTEGER),
   };
 }
 

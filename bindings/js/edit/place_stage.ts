@@ -61,7 +61,9 @@ export class PlaceStage extends Stage<PlacePlan> {
     this.#done = true;
     this.#ms = performance.now() - begin;
     this.changed();
-    return { iteration: 1, energy: 0, terms: {}, converged: true, accepted: true, milliseconds: this.#ms, entry: -1, done: 1 };
+    return {
+      iteration: 1, energy: 0, terms: {}, converged: true, accepted: true, milliseconds: this.#ms, entry: -1, done: 1,
+    };
   }
 
   reset(): void {
@@ -89,7 +91,8 @@ export class PlaceStage extends Stage<PlacePlan> {
   report(): StepReport {
     const iterations = this.#done ? [{ energy: 0, ms: this.#ms }] : [];
     return {
-      method: "place", unknowns: 0, ...this.past, setupMs: 0, start: 0, iterations, converged: this.#done, energy: { total: 0 },
+      method: "place", unknowns: 0, ...this.past, setupMs: 0, start: 0, iterations, converged: this.#done,
+      energy: { total: 0 },
     };
   }
 

@@ -5,7 +5,9 @@ import { type Method, type Options, readLive, readMethod, readSeed } from "../me
 import { type Extent, readSelection } from "../shape/selection.js";
 import { readTransform, type Transform } from "../shape/transform.js";
 import { sameExceptGoals } from "./keyframes.js";
-import type { DragPlan, Goal, HandlePlan, Keyframe, PlacePlan, RegionPlan, ScriptPlan, SolverPlan, StepPlan } from "./plan.js";
+import type {
+  DragPlan, Goal, HandlePlan, Keyframe, PlacePlan, RegionPlan, ScriptPlan, SolverPlan, StepPlan,
+} from "./plan.js";
 import { defaultMaxAdded } from "../deform/sketch.js";
 import { readSketchStep } from "./sketch_read.js";
 import { maxCount, readDeformer, readSolve } from "./solve.js";
@@ -33,12 +35,17 @@ export function readScript(value: unknown, extent: Extent): ScriptPlan {
   };
 }
 
-/** The steps of a document of a living edit. `before`: the document before it; steps that are the same objects keep their plans. Errors: invalid-script. */
+/**
+ * The steps of a document of a living edit. `before`: the document before it; steps that are the same objects keep
+ * their plans. Errors: invalid-script.
+ */
 export function readDocument(value: unknown, extent: Extent, before: Plans): Plans {
   const { script, context } = open(value, extent);
   const place = new Place("invalid-script", "");
   for (const key of ["keyframes", "frames"]) {
-    if (script[key] !== undefined) place.at(key).reject("is given to a living edit; expected steps, a document for each frame");
+    if (script[key] !== undefined) {
+      place.at(key).reject("is given to a living edit; expected steps, a document for each frame");
+    }
   }
   const known = context.seed === before.seed ? before.plans : [];
   return { plans: readSteps(place.at("steps"), script.steps, context, known), seed: context.seed };
@@ -77,12 +84,17 @@ function readKeyframes(place: Place, value: unknown, context: Context): Keyframe
   });
 }
 
-function readSteps(place: Place, value: unknown, { extent, seed }: Context, before: readonly StepPlan[] = []): StepPlan[] {
+function readSteps(
+  place: Place, value: unknown, { extent, seed }: Context, before: readonly StepPlan[] = [],
+): StepPlan[] {
   let { count } = extent; // grows with what steps may add; whether it is there is seen at the selection
   return Array.from(filled(place, value, "steps"), (step, i) => {
     const old = before[i];
-    const plan = old && old.source === step ? old : readStep(place.item(i), step, { extent: { ...extent, count }, seed }, old);
-    if (plan.kind === "sketch" && plan.refine) count = Math.min(maxCount, count + (plan.refine.maxAdded ?? defaultMaxAdded));
+    const plan =
+      old && old.source === step ? old : readStep(place.item(i), step, { extent: { ...extent, count }, seed }, old);
+    if (plan.kind === "sketch" && plan.refine) {
+      count = Math.min(maxCount, count + (plan.refine.maxAdded ?? defaultMaxAdded));
+    }
     return plan;
   });
 }
@@ -95,7 +107,9 @@ function readStep(place: Place, value: unknown, { extent, seed }: Context, old: 
   return readSolverStep(place, value, { extent, seed }, old?.kind === "solver" ? old : undefined);
 }
 
-function readSolverStep(place: Place, value: object, { extent, seed }: Context, old: SolverPlan | undefined): SolverPlan {
+function readSolverStep(
+  place: Place, value: object, { extent, seed }: Context, old: SolverPlan | undefined,
+): SolverPlan {
   const method = readMethod(place.at("method"), (value as Fields).method);
   const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
   const options = readDeformer(place.at("options"), step.options, method, extent, seed);
@@ -109,7 +123,9 @@ function readSolverStep(place: Place, value: object, { extent, seed }: Context, 
   if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
   const sameFixed = known.fixed !== undefined && known.fixed === step.fixed;
   const fixed = old && sameFixed ? old.fixed : readFixed(place.at("fixed"), step.fixed ?? [], extent);
-  return { kind: "solver", place, source: value, options, fixed, handles, drag, ...readSolve(place.at("solve"), step.solve) };
+  return {
+    kind: "solver", place, source: value, options, fixed, handles, drag, ...readSolve(place.at("solve"), step.solve),
+  };
 }
 
 function readFixed(place: Place, value: unknown, extent: Extent): RegionPlan[] {
@@ -143,9 +159,16 @@ function readHandles(place: Place, value: unknown, extent: Extent): HandlePlan[]
     const here = place.item(i);
     const handle = fields(here, item, ["name", "select", "move", "targets"]);
     const name = handle.name === undefined ? undefined : readName(here.at("name"), handle.name);
-    if (name !== undefined && names.has(name)) here.at("name").reject(`is "${name}", the name of an earlier handle; expected another`);
+    if (name !== undefined && names.has(name)) {
+      here.at("name").reject(`is "${name}", the name of an earlier handle; expected another`);
+    }
     if (name !== undefined) names.add(name);
-    return { place: here, name, select: readSelection(here.at("select"), handle.select, extent), goal: readGoal(here, handle, extent) };
+    return {
+      place: here,
+      name,
+      select: readSelection(here.at("select"), handle.select, extent),
+      goal: readGoal(here, handle, extent),
+    };
   });
 }
 
@@ -155,7 +178,9 @@ function readName(place: Place, value: unknown): string {
 
 function readGoal(place: Place, { move, targets }: Fields, { dimension }: Extent): Goal | undefined {
   if (move !== undefined && targets !== undefined) place.reject("has move and targets; expected one or the other");
-  if (targets !== undefined) return { targets: points(place.at("targets"), targets, dimension), place: place.at("targets") };
+  if (targets !== undefined) {
+    return { targets: points(place.at("targets"), targets, dimension), place: place.at("targets") };
+  }
   if (move === undefined) return undefined;
   readTransform(place.at("move"), move, dimension);
   return { move: move as Transform };
@@ -172,9 +197,13 @@ function readDrag(place: Place, value: unknown, method: Method, handles: HandleP
     const name = readName(here.at("name"), entry.name);
     const handle = handles.findIndex((plan) => plan.name === name);
     if (handle < 0) here.at("name").fail(name, "the name of a handle of the step");
-    if (seen.has(handle)) here.at("name").reject(`is "${name}", which this entry moves already; expected each handle once`);
+    if (seen.has(handle)) {
+      here.at("name").reject(`is "${name}", which this entry moves already; expected each handle once`);
+    }
     seen.add(handle);
-    return { handle, goal: readGoal(here, entry, extent) ?? here.reject("has neither move nor targets; expected one of them") };
+    return {
+      handle, goal: readGoal(here, entry, extent) ?? here.reject("has neither move nor targets; expected one of them"),
+    };
   });
   const { iterations = 1 } = drag;
   return { source: value, goals, options, iterations: integer(place.at("iterations"), iterations, 1, maxCount) };

@@ -18,14 +18,18 @@ export interface Roles {
 const known = new WeakMap<readonly HandlePlan[], { fixed: readonly RegionPlan[]; rest: Float64Array; roles: Roles }>();
 
 /** Of a step over a rest shape; no vertex in two roles, and a target for each. Errors: invalid-script. */
-export function checkedRoles(plan: Pick<SolverPlan, "fixed" | "handles" | "drag">, { positions, dimension }: Rest): Roles {
+export function checkedRoles(
+  plan: Pick<SolverPlan, "fixed" | "handles" | "drag">, { positions, dimension }: Rest,
+): Roles {
   const { fixed, handles, drag } = plan;
   const before = known.get(handles);
   const stands = before !== undefined && before.fixed === fixed && before.rest === positions;
   const roles = stands ? before.roles : rolesOf(fixed, handles, positions);
   known.set(handles, { fixed, rest: positions, roles });
   handles.forEach(({ goal }, i) => checkTargets(goal, roles.handles[i], dimension));
-  for (const { goals } of drag) for (const { handle, goal } of goals) checkTargets(goal, roles.handles[handle], dimension);
+  for (const { goals } of drag) {
+    for (const { handle, goal } of goals) checkTargets(goal, roles.handles[handle], dimension);
+  }
   return roles;
 }
 

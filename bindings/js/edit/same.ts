@@ -4,7 +4,9 @@ import { isList, type List } from "../boundary/check.js";
 
 type Fields = Readonly<Record<string, unknown>>;
 
-/** Whether two values are equal; fields left out are undefined, and numbers count, not the kind of array they are in. */
+/**
+ * Whether two values are equal; fields left out are undefined, and numbers count, not the kind of array they are in.
+ */
 export function same(a: unknown, b: unknown): boolean {
   if (a === b) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
@@ -21,7 +23,9 @@ function sameList(a: List, b: List): boolean {
   return true;
 }
 
-/** `next`, fresh, with every part that equals the same part of `before` replaced by it: a history keeps what stays once. */
+/**
+ * `next`, fresh, with every part that equals the same part of `before` replaced by it: a history keeps what stays once.
+ */
 export function shared<T>(before: unknown, next: T): T {
   if (before === (next as unknown)) return next;
   if (typeof before !== "object" || typeof next !== "object" || before === null || next === null) return next;

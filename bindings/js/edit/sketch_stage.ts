@@ -148,7 +148,11 @@ export class SketchStage extends Stage<SketchPlan> {
   view(): SketchView {
     const sketch = this.#sketch;
     return {
-      labels: sketch.labels(), held: sketch.held(), parameters: sketch.parameters(), reference: sketch.reference(), target: sketch.target(),
+      labels: sketch.labels(),
+      held: sketch.held(),
+      parameters: sketch.parameters(),
+      reference: sketch.reference(),
+      target: sketch.target(),
       refinement: sketch.refinement,
     };
   }

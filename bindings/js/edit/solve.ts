@@ -7,7 +7,9 @@ import type { SolvePlan } from "./plan.js";
 
 export const maxCount = 2 ** 31 - 1;
 
-/** The options of a method, checked, for a deformer that reads them again; `seed`: of the script, where they have none. */
+/**
+ * The options of a method, checked, for a deformer that reads them again; `seed`: of the script, where they have none.
+ */
 export function readDeformer(
   place: Place, value: unknown, method: Method, extent: Extent, seed: number | undefined,
 ): DeformerOptions {

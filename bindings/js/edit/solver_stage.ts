@@ -205,7 +205,9 @@ export class SolverStage extends Stage<SolverPlan> {
   report(): StepReport {
     const [main, ...drag] = this.#solving.progress;
     const report = solvedReport(this.#solving, main, this.#setupMs, this.past);
-    const costs = drag.map(({ factorizations, analyses, iterations }) => ({ factorizations, analyses, iterations: [...iterations] }));
+    const costs = drag.map(({ factorizations, analyses, iterations }) => ({
+      factorizations, analyses, iterations: [...iterations],
+    }));
     return costs.length > 0 ? { ...report, drag: costs } : report;
   }
 

@@ -32,7 +32,10 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
 
   abstract readonly method: string;
 
-  /** Takes the step over a rest shape and keeps what it can; no iteration. Whether anything is different. Errors: then nothing is. */
+  /**
+   * Takes the step over a rest shape and keeps what it can; no iteration. Whether anything is different. Errors: then
+   * nothing is.
+   */
   abstract prepare(plan: P, rest: Rest): boolean;
   /** Nothing is left to do. */
   abstract readonly done: boolean;
@@ -160,7 +163,11 @@ export class PutAway {
   readonly done = true;
 
   constructor(
-    readonly plan: StepPlan, readonly rest: Rest, readonly moment: StageMoment, readonly next: Rest, readonly report: StepReport,
+    readonly plan: StepPlan,
+    readonly rest: Rest,
+    readonly moment: StageMoment,
+    readonly next: Rest,
+    readonly report: StepReport,
   ) {}
 
   isAt(plan: StepPlan, rest: Rest): boolean {

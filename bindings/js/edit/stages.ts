@@ -35,7 +35,9 @@ export class Stages {
 
   /** Where those up to the last one are, and what they have done. */
   moments(): { plan: StepPlan; moment: StageMoment }[] {
-    return this.#shown.map((stage) => (stage instanceof PutAway ? stage : { plan: stage.standsFor, moment: stage.moment() }));
+    return this.#shown.map((stage) =>
+      stage instanceof PutAway ? stage : { plan: stage.standsFor, moment: stage.moment() },
+    );
   }
 
   reports(): StepReport[] {

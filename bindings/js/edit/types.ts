@@ -26,7 +26,9 @@ export interface EditScript {
 export type ScriptAnyStep = ScriptStep | ScriptSketch | ScriptPlace;
 
 /** A method with a solver, and its options. */
-export type ScriptMethod<M extends MethodName = MethodName> = { [N in M]: { method: N; options?: Omit<MethodOptions[N], "method"> } }[M];
+export type ScriptMethod<M extends MethodName = MethodName> = {
+  [N in M]: { method: N; options?: Omit<MethodOptions[N], "method"> };
+}[M];
 
 export type ScriptStep = {
   [M in MethodName]: ScriptMethod<M> & SolverStep & {
@@ -67,9 +69,15 @@ export interface ScriptSketch {
   morph?: number;
   /** The region of another stroke, with the partitions of this step; "previous": that of the sketch step before. */
   region?: { camera: Camera; reference: Stroke } | "previous";
-  /** Adds vertices, which follow those before, where the limb is stretched and bent: not in keyframes, not with finish. maxAdded: 1,000,000. */
+  /**
+   * Adds vertices, which follow those before, where the limb is stretched and bent: not in keyframes, not with finish.
+   * maxAdded: 1,000,000.
+   */
   refine?: boolean | { maxAdded?: number };
-  /** A solver goes on from the pose: the static part is fixed, rigid parts and region vertices `spacing` diagonals apart (0.05) are its handle. */
+  /**
+   * A solver goes on from the pose: the static part is fixed, rigid parts and region vertices `spacing` diagonals apart
+   * (0.05) are its handle.
+   */
   finish?: ScriptMethod & { spacing?: number; solve?: { iterations?: number; tolerance?: number } };
 }
 
@@ -173,7 +181,10 @@ export interface EditStep extends Step {
 /** The last iteration of a run, and how many there were. */
 export interface EditRun extends EditStep {
   iterations: number;
-  /** Nothing is left to do: each step's own test holds, nothing lowers its energy any more, or its iterations are used up. */
+  /**
+   * Nothing is left to do: each step's own test holds, nothing lowers its energy any more, or its iterations are used
+   * up.
+   */
   converged: boolean;
 }
 
@@ -189,10 +200,16 @@ export interface SketchView {
 }
 
 export interface EditResult {
-  /** Of the input's vertices and those that refinement added, in the precision the shape came in; with keyframes, of the last frame. */
+  /**
+   * Of the input's vertices and those that refinement added, in the precision the shape came in; with keyframes, of the
+   * last frame.
+   */
   positions: FloatArray;
   report: EditReport;
-  /** Of the last step; after a sketch its `SketchState`. Where vertices were added: their `parents`, and where they were at `rest` in that step. */
+  /**
+   * Of the last step; after a sketch its `SketchState`. Where vertices were added: their `parents`, and where they were
+   * at `rest` in that step.
+   */
   state: State;
   /** Where steps have refined the shape: what they added to the input in all. */
   refinement?: Refinement;

@@ -8,7 +8,9 @@ export function srgbColor(color: ArrayLike<number>, factor: ArrayLike<number>, o
   }
 }
 
-/** The colours of these vertices as glTF has them, four numbers each; 16 bits, so that dark ones come back as they were. */
+/**
+ * The colours of these vertices as glTF has them, four numbers each; 16 bits, so that dark ones come back as they were.
+ */
 export function linearColors(colors: Uint8Array, vertices: readonly number[]): Uint16Array {
   const linear = Uint16Array.from({ length: 256 }, (_, byte) => {
     const x = byte / 255;

@@ -31,14 +31,15 @@ export class Files {
     return named(name, async () => {
       const bytes = await bytesOf(source);
       const pause = pauses({ signal, onProgress });
-      const read = format === "glb" ? (await import("./glb.js")).readGlb(bytes) : readText(this.io, format, bytes, pause);
+      const read =
+        format === "glb" ? (await import("./glb.js")).readGlb(bytes) : readText(this.io, format, bytes, pause);
       return { format, dimension: 3, ...(await read), source: new Blob([bytes]) };
     });
   }
 
   /**
-   * Writes a shape; the ending of `name` tells the format. A file that was read and goes back to its own format keeps all
-   * but its coordinates (and normals, which they leave behind); in another format it keeps what that has room for.
+   * Writes a shape; the ending of `name` tells the format. A file that was read and goes back to its own format keeps
+   * all but its coordinates (and normals, which they leave behind); in another format it keeps what that has room for.
    * Errors: invalid-shape, invalid-option, too-large.
    */
   async write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -67,11 +68,16 @@ async function named<T>(name: string, work: () => Promise<T>): Promise<T> {
 async function bytesOf(source: unknown): Promise<Uint8Array<ArrayBuffer>> {
   if (source instanceof Blob) return new Uint8Array(await source.arrayBuffer());
   if (source instanceof ArrayBuffer) return new Uint8Array(source);
-  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
+  if (ArrayBuffer.isView(source)) {
+    return new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
+  }
   return new Place("invalid-option", "source").fail(source, "a Blob, an ArrayBuffer or a typed array");
 }
 
-const keys = ["positions", "triangles", "dimension", "faceVertices", "faceOffsets", "texcoords", "colors", "texture", "format", "source"];
+const keys = [
+  "positions", "triangles", "dimension", "faceVertices", "faceOffsets", "texcoords", "colors", "texture", "format",
+  "source",
+];
 
 /** A checked shape with all that a mesh has; without polygons the triangles are the faces. */
 function readMesh(value: unknown): Mesh {
@@ -80,12 +86,18 @@ function readMesh(value: unknown): Mesh {
   if (shape.format !== undefined) choice(place.at("format"), shape.format, formats);
   if (shape.source !== undefined && !(shape.source instanceof Blob)) place.at("source").fail(shape.source, "a Blob");
   const dimension = shape.dimension === undefined ? 3 : integer(place.at("dimension"), shape.dimension, 2, 3);
-  const positions = Float64Array.from(toSpace(coordinates(place.at("positions"), shape.positions, dimension), dimension));
+  const positions = Float64Array.from(
+    toSpace(coordinates(place.at("positions"), shape.positions, dimension), dimension),
+  );
   const triangles = vertexIds(place.at("triangles"), shape.triangles, positions.length / 3);
   if (triangles.length % 3 !== 0) place.at("triangles").fail(triangles, "three vertex ids a triangle");
   const polygons = shape.faceVertices && shape.faceOffsets && shape.faceOffsets.length > 0;
-  const faceVertices = polygons ? vertexIds(place.at("faceVertices"), shape.faceVertices, positions.length / 3) : triangles;
-  const faceOffsets = polygons ? offsets(place.at("faceOffsets"), shape.faceOffsets, faceVertices.length) : triplets(triangles.length / 3);
+  const faceVertices = polygons
+    ? vertexIds(place.at("faceVertices"), shape.faceVertices, positions.length / 3)
+    : triangles;
+  const faceOffsets = polygons
+    ? offsets(place.at("faceOffsets"), shape.faceOffsets, faceVertices.length)
+    : triplets(triangles.length / 3);
   return {
     positions, triangles, faceVertices, faceOffsets,
     texcoords: Float64Array.from(sized(place.at("texcoords"), shape.texcoords, 2 * faceVertices.length)),
@@ -106,7 +118,9 @@ function sized(place: Place, value: unknown, length: number): ArrayLike<number> 
 function vertexIds(place: Place, value: unknown, count: number): Uint32Array {
   const ids = numbers(place, value);
   for (let i = 0; i < ids.length; ++i) {
-    if (!(ids[i] >= 0 && ids[i] < count && Number.isInteger(ids[i]))) integer(place.item(i), ids[i], 0, count - 1, "a vertex id");
+    if (!(ids[i] >= 0 && ids[i] < count && Number.isInteger(ids[i]))) {
+      integer(place.item(i), ids[i], 0, count - 1, "a vertex id");
+    }
   }
   return Uint32Array.from(ids);
 }
@@ -117,9 +131,13 @@ function offsets(place: Place, value: unknown, corners: number): Uint32Array {
   for (let i = 0; i < given.length; ++i) {
     const least = i === 0 ? 0 : given[i - 1] + 3;
     const most = i === 0 ? 0 : corners;
-    if (!(given[i] >= least && given[i] <= most)) integer(place.item(i), given[i], least, most, "where a polygon of three corners or more begins");
+    if (!(given[i] >= least && given[i] <= most)) {
+      integer(place.item(i), given[i], least, most, "where a polygon of three corners or more begins");
+    }
   }
-  return given[given.length - 1] === corners ? Uint32Array.from(given) : place.reject(`ends at ${given[given.length - 1]}; expected ${corners}, the corners there are`);
+  return given[given.length - 1] === corners
+    ? Uint32Array.from(given)
+    : place.reject(`ends at ${given[given.length - 1]}; expected ${corners}, the corners there are`);
 }
 
 /** Where triangles begin. */

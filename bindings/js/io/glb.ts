@@ -58,7 +58,14 @@ export class Glb {
     const positions = this.#positions();
     const faceVertices = this.#triangles();
     const faceOffsets = Uint32Array.from({ length: faceVertices.length / 3 + 1 }, (_, i) => 3 * i);
-    return { positions, triangles: faceVertices, faceVertices, faceOffsets, texcoords: this.#texcoords(faceVertices), colors: this.#colors() };
+    return {
+      positions,
+      triangles: faceVertices,
+      faceVertices,
+      faceOffsets,
+      texcoords: this.#texcoords(faceVertices),
+      colors: this.#colors(),
+    };
   }
 
   /** The one picture that everything in the scene shows. */
@@ -66,14 +73,19 @@ export class Glb {
     const primitives = this.#parts.flatMap((part) => part.primitives);
     const [first, ...others] = new Set(primitives.map((primitive) => primitive.getMaterial()?.getBaseColorTexture()));
     const image = first?.getImage();
-    if (!image || others.length > 0 || !primitives.every((primitive) => primitive.getAttribute("TEXCOORD_0"))) return undefined;
+    if (!image || others.length > 0 || !primitives.every((primitive) => primitive.getAttribute("TEXCOORD_0"))) {
+      return undefined;
+    }
     return new Blob([image], { type: first!.getMimeType() });
   }
 
   /** The file with the vertices at these positions. Errors: invalid-option. */
   async write(positions: Float64Array): Promise<Uint8Array<ArrayBuffer>> {
     if (positions.length !== 3 * this.#count) {
-      throw new PliantError("invalid-shape", `positions has ${positions.length / 3} vertices; expected ${this.#count}, as the file it was read from`);
+      throw new PliantError(
+        "invalid-shape",
+        `positions has ${positions.length / 3} vertices; expected ${this.#count}, as the file it was read from`,
+      );
     }
     const normals = this.#movedNormals(positions);
     const unused = new Set<Accessor>();
@@ -113,7 +125,11 @@ export class Glb {
     }
     for (const node of new Set(this.#parts.map((part) => part.node))) {
       const sampler = this.#document.createAnimationSampler().setInput(input).setOutput(output);
-      const channel = this.#document.createAnimationChannel().setTargetNode(node).setTargetPath("weights").setSampler(sampler);
+      const channel = this.#document
+        .createAnimationChannel()
+        .setTargetNode(node)
+        .setTargetPath("weights")
+        .setSampler(sampler);
       animation.addSampler(sampler).addChannel(channel);
       node.getMesh()!.setWeights(times.map(() => 0));
     }
@@ -133,7 +149,9 @@ export class Glb {
   }
 
   #triangles(): Uint32Array {
-    return Uint32Array.from(this.#parts.flatMap(({ primitives, first }) => primitives.flatMap((p) => trianglesOf(p).map((v) => first + v))));
+    return Uint32Array.from(
+      this.#parts.flatMap(({ primitives, first }) => primitives.flatMap((p) => trianglesOf(p).map((v) => first + v))),
+    );
   }
 
   /** Two a corner, v upwards as everywhere but in glTF; empty where no primitive has any. */
@@ -148,7 +166,9 @@ export class Glb {
         any = true;
       }
     }
-    return any ? Float64Array.from({ length: 2 * corners.length }, (_, i) => ofVertex[2 * corners[i >> 1] + (i & 1)]) : new Float64Array(0);
+    return any
+      ? Float64Array.from({ length: 2 * corners.length }, (_, i) => ofVertex[2 * corners[i >> 1] + (i & 1)])
+      : new Float64Array(0);
   }
 
   /** Three bytes a vertex: its own colour times that of its material; empty where all are white. */
@@ -182,11 +202,19 @@ export class Glb {
   }
 
   #accessor(values: Float32Array): Accessor {
-    return this.#document.createAccessor().setType("VEC3").setArray(values as Float32Array<ArrayBuffer>).setBuffer(this.#buffer());
+    return this.#document
+      .createAccessor()
+      .setType("VEC3")
+      .setArray(values as Float32Array<ArrayBuffer>)
+      .setBuffer(this.#buffer());
   }
 
   #scalars(values: number[]): Accessor {
-    return this.#document.createAccessor().setType("SCALAR").setArray(Float32Array.from(values)).setBuffer(this.#buffer());
+    return this.#document
+      .createAccessor()
+      .setType("SCALAR")
+      .setArray(Float32Array.from(values))
+      .setBuffer(this.#buffer());
   }
 
   #buffer() {
@@ -216,7 +244,10 @@ function byPosition(node: Node): Map<Accessor, Primitive[]> {
 
 /** The vertices of a primitive, as its mode strings them together. */
 function idsOf(primitive: Primitive): ArrayLike<number> & Iterable<number> {
-  return primitive.getIndices()?.getArray() ?? Uint32Array.from({ length: primitive.getAttribute("POSITION")!.getCount() }, (_, v) => v);
+  return (
+    primitive.getIndices()?.getArray() ??
+    Uint32Array.from({ length: primitive.getAttribute("POSITION")!.getCount() }, (_, v) => v)
+  );
 }
 
 /** Vertex ids, three a triangle; none for points and lines. */
@@ -225,19 +256,27 @@ function trianglesOf(primitive: Primitive): number[] {
   const mode = primitive.getMode();
   const ids: number[] = Array.from(idsOf(primitive));
   if (mode === TRIANGLES) return ids.slice(0, ids.length - (ids.length % 3));
-  const corners = (i: number) => (mode === TRIANGLE_FAN ? [0, i + 1, i + 2] : i % 2 ? [i + 1, i, i + 2] : [i, i + 1, i + 2]);
+  const corners = (i: number) =>
+    mode === TRIANGLE_FAN ? [0, i + 1, i + 2] : i % 2 ? [i + 1, i, i + 2] : [i, i + 1, i + 2];
   if (mode !== TRIANGLE_STRIP && mode !== TRIANGLE_FAN) return [];
   return Array.from({ length: Math.max(0, ids.length - 2) }, (_, i) => corners(i).map((corner) => ids[corner])).flat();
 }
 
 function localPositions({ matrix, first, accessor, node }: Part, positions: Float64Array): Float32Array {
   const inverse = applyInverse(matrix);
-  if (!inverse) throw new PliantError("invalid-shape", `node "${node.getName()}" has no size in some direction; expected a transform that can be undone`);
+  if (!inverse) {
+    throw new PliantError(
+      "invalid-shape",
+      `node "${node.getName()}" has no size in some direction; expected a transform that can be undone`,
+    );
+  }
   return perVertex(accessor.getCount(), (i) => inverse(positions.subarray(3 * (first + i), 3 * (first + i) + 3)));
 }
 
 function localNormals({ matrix, first, accessor }: Part, normals: Float32Array): Float32Array {
-  return perVertex(accessor.getCount(), (i) => directionBack(matrix, normals.subarray(3 * (first + i), 3 * (first + i) + 3)));
+  return perVertex(accessor.getCount(), (i) =>
+    directionBack(matrix, normals.subarray(3 * (first + i), 3 * (first + i) + 3)),
+  );
 }
 
 function perVertex(count: number, value: (i: number) => ArrayLike<number>): Float32Array {
@@ -246,35 +285,57 @@ function perVertex(count: number, value: (i: number) => ArrayLike<number>): Floa
   return values;
 }
 
-/** A mesh from another kind of file: vertices are repeated where texture coordinates differ. `image`: the picture on it. */
-export function glbOf(mesh: Mesh, image?: { bytes: Uint8Array<ArrayBuffer>; type: string }): { glb: Glb; expand(positions: Float64Array): Float64Array } {
+/**
+ * A mesh from another kind of file: vertices are repeated where texture coordinates differ. `image`: the picture on it.
+ */
+export function glbOf(
+  mesh: Mesh, image?: { bytes: Uint8Array<ArrayBuffer>; type: string },
+): { glb: Glb; expand(positions: Float64Array): Float64Array } {
   const document = new Document();
   document.createBuffer();
   const { source, indices, uv } = splitSeams(mesh);
-  const expand = (positions: Float64Array) => Float64Array.from({ length: 3 * source.length }, (_, i) => positions[3 * source[Math.floor(i / 3)] + (i % 3)]);
+  const expand = (positions: Float64Array) =>
+    Float64Array.from({ length: 3 * source.length }, (_, i) => positions[3 * source[Math.floor(i / 3)] + (i % 3)]);
   const accessor = (type: "VEC2" | "VEC3" | "VEC4" | "SCALAR", array: Float32Array | Uint32Array | Uint16Array) =>
-    document.createAccessor().setType(type).setArray(array as Float32Array<ArrayBuffer>).setBuffer(document.getRoot().listBuffers()[0]);
-  const primitive = document.createPrimitive().setAttribute("POSITION", accessor("VEC3", Float32Array.from(expand(mesh.positions))));
-  if (indices.length > 0) primitive.setIndices(accessor("SCALAR", indices)).setAttribute("NORMAL", accessor("VEC3", new Float32Array(3 * source.length)));
+    document
+      .createAccessor()
+      .setType(type)
+      .setArray(array as Float32Array<ArrayBuffer>)
+      .setBuffer(document.getRoot().listBuffers()[0]);
+  const primitive = document
+    .createPrimitive()
+    .setAttribute("POSITION", accessor("VEC3", Float32Array.from(expand(mesh.positions))));
+  if (indices.length > 0)
+    primitive
+      .setIndices(accessor("SCALAR", indices))
+      .setAttribute("NORMAL", accessor("VEC3", new Float32Array(3 * source.length)));
   else primitive.setMode(Primitive.Mode.POINTS);
   if (uv.length > 0) primitive.setAttribute("TEXCOORD_0", accessor("VEC2", uv));
-  if (mesh.colors.length > 0) primitive.setAttribute("COLOR_0", accessor("VEC4", linearColors(mesh.colors, source)).setNormalized(true));
+  if (mesh.colors.length > 0) {
+    primitive.setAttribute("COLOR_0", accessor("VEC4", linearColors(mesh.colors, source)).setNormalized(true));
+  }
   primitive.setMaterial(matte(document, image));
-  document.createScene().addChild(document.createNode("shape").setMesh(document.createMesh("shape").addPrimitive(primitive)));
+  document
+    .createScene()
+    .addChild(document.createNode("shape").setMesh(document.createMesh("shape").addPrimitive(primitive)));
   return { glb: new Glb(document), expand };
 }
 
 /** Seen from both sides, and not the metal that a file without a material is made of. */
 function matte(document: Document, image: { bytes: Uint8Array<ArrayBuffer>; type: string } | undefined) {
   const material = document.createMaterial().setDoubleSided(true).setMetallicFactor(0).setRoughnessFactor(0.65);
-  if (image) material.setBaseColorTexture(document.createTexture("picture").setImage(image.bytes).setMimeType(image.type));
+  if (image) {
+    material.setBaseColorTexture(document.createTexture("picture").setImage(image.bytes).setMimeType(image.type));
+  }
   return material;
 }
 
 /** One vertex for each vertex and texture coordinate that go together. `source`: the mesh's vertex of each. */
 function splitSeams(mesh: Mesh): { source: number[]; indices: Uint32Array; uv: Float32Array } {
   const vertices = mesh.positions.length / 3;
-  if (mesh.texcoords.length === 0) return { source: [...Array(vertices).keys()], indices: mesh.triangles, uv: new Float32Array(0) };
+  if (mesh.texcoords.length === 0) {
+    return { source: [...Array(vertices).keys()], indices: mesh.triangles, uv: new Float32Array(0) };
+  }
   const source: number[] = [];
   const uv: number[] = [];
   const ids = new Map<string, number>();
@@ -309,9 +370,16 @@ export async function writeGlb(mesh: Mesh, texture: Blob | undefined): Promise<U
   return glb.write(expand(mesh.positions));
 }
 
-/** One file that shows positions one after the other, at times in seconds; `bytes`: the .glb the mesh was read from, if it was. */
-export async function animateGlb(mesh: Mesh, bytes: Uint8Array | undefined, frames: Float64Array[], times: number[]): Promise<Uint8Array<ArrayBuffer>> {
-  const { glb, expand } = bytes ? { glb: await Glb.read(bytes), expand: (positions: Float64Array) => positions } : glbOf(mesh);
+/**
+ * One file that shows positions one after the other, at times in seconds; `bytes`: the .glb the mesh was read from, if
+ * it was.
+ */
+export async function animateGlb(
+  mesh: Mesh, bytes: Uint8Array | undefined, frames: Float64Array[], times: number[],
+): Promise<Uint8Array<ArrayBuffer>> {
+  const { glb, expand } = bytes
+    ? { glb: await Glb.read(bytes), expand: (positions: Float64Array) => positions }
+    : glbOf(mesh);
   glb.animate(frames.map(expand), times);
   return glb.write(expand(mesh.positions));
 }

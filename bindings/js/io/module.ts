@@ -54,6 +54,10 @@ export class IoModule {
 /** The module calls abort where memory has run out; anything else is a fault of its own. */
 function stopped(error: Error): PliantError {
   const reason = `the WASM module stopped (${error.message})`;
-  if (/unreachable|abort/i.test(error.message)) return new PliantError("too-large", `${reason}, most likely out of memory; expected a smaller file`, { cause: error });
+  if (/unreachable|abort/i.test(error.message)) {
+    return new PliantError("too-large", `${reason}, most likely out of memory; expected a smaller file`, {
+      cause: error,
+    });
+  }
   return new PliantError("crashed", reason, { cause: error });
 }

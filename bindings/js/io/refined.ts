@@ -5,8 +5,9 @@ import type { Refinement } from "../deform/sketch.js";
 import type { Mesh } from "./shape_file.js";
 
 /**
- * A shape that was read, at rest, with the vertices of a refinement. Faces that were split become triangles. Colours of a new vertex are those
- * between its parents, texture coordinates of a new corner those between its parents in the same triangle.
+ * A shape that was read, at rest, with the vertices of a refinement. Faces that were split become triangles. Colours of
+ * a new vertex are those between its parents, texture coordinates of a new corner those between its parents in the same
+ * triangle.
  */
 export function refined(mesh: Mesh, refinement: Refinement): Mesh {
   const { faceVertices, faceOffsets } = mesh;
@@ -17,14 +18,18 @@ export function refined(mesh: Mesh, refinement: Refinement): Mesh {
     const last = first + Math.max(0, end - begin - 2);
     if (parts.count(first, last) === last - first) {
       out.face(mesh.triangles.subarray(3 * first, 3 * last), (add) => {
-        for (let corner = begin; corner < end; ++corner) add(faceVertices[corner], mesh.texcoords.subarray(2 * corner, 2 * corner + 2));
+        for (let corner = begin; corner < end; ++corner) {
+          add(faceVertices[corner], mesh.texcoords.subarray(2 * corner, 2 * corner + 2));
+        }
       });
     } else {
       for (let triangle = first; triangle < last; ++triangle) parts.each(triangle, out);
     }
     first = last;
   }
-  const colors = Uint8Array.from(extended(Float64Array.from(mesh.colors), mesh.colors.length > 0 ? 3 : 0, refinement.parents), Math.round);
+  const colors = Uint8Array.from(
+    extended(Float64Array.from(mesh.colors), mesh.colors.length > 0 ? 3 : 0, refinement.parents), Math.round,
+  );
   return out.mesh(extended(mesh.positions, 3, refinement.parents), colors);
 }
 
@@ -34,7 +39,9 @@ export function triangleCorners({ faceVertices, faceOffsets, triangles }: Mesh):
   let at = 0;
   for (let face = 0; face + 1 < faceOffsets.length; ++face) {
     const [begin, end] = [faceOffsets[face], faceOffsets[face + 1]];
-    for (const last = at + 3 * (end - begin - 2); at < last; ++at) corners[at] = faceVertices.indexOf(triangles[at], begin);
+    for (const last = at + 3 * (end - begin - 2); at < last; ++at) {
+      corners[at] = faceVertices.indexOf(triangles[at], begin);
+    }
   }
   return corners;
 }

@@ -73,7 +73,9 @@ function packPolygons({ faceVertices, faceOffsets }: Mesh): Int32Array {
 }
 
 /** The same file with its vertices at other places. Errors: invalid-shape, parse-error, too-large. */
-export async function rewriteText(io: IoModule, format: TextFormat, file: Uint8Array, positions: Float64Array): Promise<Uint8Array<ArrayBuffer>> {
+export async function rewriteText(
+  io: IoModule, format: TextFormat, file: Uint8Array, positions: Float64Array,
+): Promise<Uint8Array<ArrayBuffer>> {
   let done = 0;
   const move = (points: Float64Array) => {
     if (done + points.length <= positions.length) points.set(positions.subarray(done, done + points.length));
@@ -81,14 +83,19 @@ export async function rewriteText(io: IoModule, format: TextFormat, file: Uint8A
   };
   const pieces = await rewritten(io, format, piecesOf(file), move);
   if (done === positions.length) return joined(pieces);
-  throw new PliantError("invalid-shape", `positions has ${positions.length / 3} vertices; expected ${done / 3}, as the file it was read from`);
+  throw new PliantError(
+    "invalid-shape",
+    `positions has ${positions.length / 3} vertices; expected ${done / 3}, as the file it was read from`,
+  );
 }
 
 function* piecesOf(file: Uint8Array): Generator<Uint8Array> {
   for (let at = 0; at < file.length; at += pieceSize) yield file.subarray(at, at + pieceSize);
 }
 
-async function rewritten(io: IoModule, format: TextFormat, file: Iterable<Uint8Array>, move: (points: Float64Array) => void): Promise<Uint8Array[]> {
+async function rewritten(
+  io: IoModule, format: TextFormat, file: Iterable<Uint8Array>, move: (points: Float64Array) => void,
+): Promise<Uint8Array[]> {
   const pieces: Uint8Array[] = [];
   await rewriteStream(io, format, file, move, (piece) => void pieces.push(piece));
   return pieces;
@@ -106,10 +113,14 @@ function joined(pieces: Uint8Array[]): Uint8Array<ArrayBuffer> {
 
 /**
  * Passes a file through in pieces. `move` changes the coordinates of a piece, three a point, in place; `emit` gets what
- * is to be written. Memory is bounded by the size of a piece. Errors: parse-error, invalid-shape, those of its arguments.
+ * is to be written. Memory is bounded by the size of a piece. Errors: parse-error, invalid-shape, those of its
+ * arguments.
  */
 export function rewriteStream(
-  io: IoModule, format: TextFormat, pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>, move: (points: Float64Array) => void,
+  io: IoModule,
+  format: TextFormat,
+  pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>,
+  move: (points: Float64Array) => void,
   emit: (piece: Uint8Array) => void | Promise<void>,
 ): Promise<void> {
   return io.use(async ({ Rewriter, Scratch }, free) => {
@@ -120,7 +131,9 @@ export function rewriteStream(
   });
 }
 
-function passed(rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: (points: Float64Array) => void): Uint8Array {
+function passed(
+  rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: (points: Float64Array) => void,
+): Uint8Array {
   put(scratch.bytes(piece.length), piece);
   const { status, points } = rewriter.push(scratch, last);
   accept(status);

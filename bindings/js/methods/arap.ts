@@ -22,7 +22,9 @@ export const arap = method({
     }),
     constraintWeight: numberOrNull(positive, {
       title: "Softness", min: 0.1, max: 1000, step: 0.1, log: true, advanced: true,
-      help: "Makes handles soft: the weight of the squared distances from their targets. Left out, or null: they are exact.",
+      help:
+        "Makes handles soft: the weight of the squared distances from their targets. " +
+        "Left out, or null: they are exact.",
     }),
     smoothness: number(fraction, {
       title: "Smoothness", default: 0, start: 0.05, min: 0, max: 0.3, step: 0.01,

@@ -43,7 +43,9 @@ function readSources(place: Place, value: unknown, extent: Extent): Select | Int
 
 const fieldReaders: Record<string, (place: Place, value: unknown, extent: Extent) => FieldRead> = {
   strokes: (place, value, extent) => ({ kind: "strokes", strokes: readStrokes(place, value, extent) }),
-  axis: (place, value, { dimension }) => ({ kind: "axis", axis: toSpace(direction(place, value, dimension), dimension) }),
+  axis: (place, value, { dimension }) => ({
+    kind: "axis", axis: toSpace(direction(place, value, dimension), dimension),
+  }),
   curvature: (place, value) => ({ kind: choice(place, value, ["max", "min"]) }),
   geodesic: (place, value, extent) => ({ kind: "geodesic", sources: readSources(place, value, extent) }),
 };
@@ -52,7 +54,9 @@ function readField(place: Place, value: unknown, extent: Extent): FieldRead {
   const kinds = Object.keys(fieldReaders);
   const field = fields(place, value, kinds, "field");
   const [kind, ...more] = Object.keys(field);
-  if (kind === undefined || more.length > 0) place.reject(`has ${Object.keys(field).length} keys; expected one of ${kinds.join(", ")}`);
+  if (kind === undefined || more.length > 0) {
+    place.reject(`has ${Object.keys(field).length} keys; expected one of ${kinds.join(", ")}`);
+  }
   return fieldReaders[kind](place.at(kind), field[kind], extent);
 }
 
@@ -62,14 +66,17 @@ function packField(name: string, field: FieldRead | null, place: Place, shape: S
   if (field?.kind === "axis") return { [name]: field.kind, [`${name}/axis`]: field.axis };
   if (field?.kind !== "geodesic") return { [name]: field?.kind ?? "none" };
   const { sources } = field;
-  const ids = sources instanceof Int32Array ? sources : selectedIds(place.at(field.kind), sources, insideOf(shape).rest);
+  const ids =
+    sources instanceof Int32Array ? sources : selectedIds(place.at(field.kind), sources, insideOf(shape).rest);
   return { [name]: field.kind, [`${name}/sources`]: ids };
 }
 
 function unpackField(name: string, values: RawValues, dimension: number): MaterialField | undefined {
   const kind = values[name] as string;
   const of = (part: string) => values[`${name}/${part}`];
-  if (kind === "strokes") return { strokes: unpackLists(`${name}/strokes`, values).map((stroke) => rowsOf(stroke, dimension)) };
+  if (kind === "strokes") {
+    return { strokes: unpackLists(`${name}/strokes`, values).map((stroke) => rowsOf(stroke, dimension)) };
+  }
   if (kind === "axis") return { axis: rowsOf(of("axis"), dimension)[0] };
   if (kind === "geodesic") return { geodesic: Array.from(of("sources") as ArrayLike<number>) };
   return kind === "max" || kind === "min" ? { curvature: kind } : undefined;
@@ -98,20 +105,34 @@ export const edgeMaterial = method({
       title: "Lambda", min: 1e-6, max: 10, step: 0.1, log: true, advanced: true, instead: ["stretch"],
       help: "The paper's own stiffness against stretching, instead of stretch.",
     }),
-    bend: number(notNegative, { title: "Bend", default: 1, ...stiffness, max: 100, help: "Stiffness against bending, the paper's mu." }),
-    pStretch: number(fraction, { title: "Stretch now", ...share, help: "The part of the stretch stiffness that acts; changing it costs nothing." }),
-    pBend: number(fraction, { title: "Bend now", ...share, help: "The part of the bend stiffness that acts; changing it costs nothing." }),
+    bend: number(notNegative, {
+      title: "Bend", default: 1, ...stiffness, max: 100, help: "Stiffness against bending, the paper's mu.",
+    }),
+    pStretch: number(fraction, {
+      title: "Stretch now", ...share, help: "The part of the stretch stiffness that acts; changing it costs nothing.",
+    }),
+    pBend: number(fraction, {
+      title: "Bend now", ...share, help: "The part of the bend stiffness that acts; changing it costs nothing.",
+    }),
     gravity: vector({
       title: "Gravity", default: [0, 0, 0], min: 0, max: 3, step: 0.05,
       help: "Where everything falls that is not held: the force on a vertex is gravity lambda (diagonal) / (vertices).",
     }),
     field: option<MaterialField | null>("field", {
       title: "Grain",
-      help: "The direction in which it is stiff, as in wood or woven cloth: painted strokes, an axis, along the most or least curved, or along shortest paths.",
-    }, { read: (place, value, extent) => (value === null ? null : readField(place, value, extent)), pack: packField, unpack: unpackField }),
+      help:
+        "The direction in which it is stiff, as in wood or woven cloth: painted strokes, an axis, " +
+        "along the most or least curved, or along shortest paths.",
+    }, {
+      read: (place, value, extent) => (value === null ? null : readField(place, value, extent)),
+      pack: packField,
+      unpack: unpackField,
+    }),
   },
 
   check(place, { stretch, lambda, bend }) {
-    if (bend === 0 && (lambda ?? stretch) === 0) place.reject(`has bend and ${lambda === 0 ? "lambda" : "stretch"} of 0; expected one of them above 0`);
+    if (bend === 0 && (lambda ?? stretch) === 0) {
+      place.reject(`has bend and ${lambda === 0 ? "lambda" : "stretch"} of 0; expected one of them above 0`);
+    }
   },
 });

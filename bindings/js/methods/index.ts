@@ -30,7 +30,9 @@ export type LiveOptions = { [N in MethodName]: LiveOf<Named<N>> };
 const methods: readonly Method[] = declared;
 
 /** What menus, sliders and documentation are made from. */
-export const methodInfos: readonly (MethodInfo & { name: MethodName })[] = Object.freeze(declared.map(({ info }) => info as MethodInfo & { name: MethodName }));
+export const methodInfos: readonly (MethodInfo & { name: MethodName })[] = Object.freeze(
+  declared.map(({ info }) => info as MethodInfo & { name: MethodName }),
+);
 
 /** Methods that can do something, as an error says it. */
 export function methodsThat(can: (method: MethodInfo) => boolean): string {
@@ -46,7 +48,11 @@ export function readMethod(place: Place, name: unknown): Method {
   const method = methods.find((candidate) => candidate.name === name);
   if (method) return method;
   const expected = methods.map((candidate) => `"${candidate.name}"`).join(", ");
-  if (name === "sketch") place.reject(`is "sketch", a way to edit and not a solver; expected ${expected}, or a call of pliant.sketch`);
-  if (absent.includes(name as string)) place.reject(`is "${name}", which is not in this build yet; expected ${expected}`);
+  if (name === "sketch") {
+    place.reject(`is "sketch", a way to edit and not a solver; expected ${expected}, or a call of pliant.sketch`);
+  }
+  if (absent.includes(name as string)) {
+    place.reject(`is "${name}", which is not in this build yet; expected ${expected}`);
+  }
   return place.fail(name, expected);
 }

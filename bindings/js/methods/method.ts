@@ -9,7 +9,9 @@ import type { Option, OptionInfo } from "./option.js";
 /** Checked options, whatever they are; those left out are not there. */
 export type Options = Readonly<Record<string, unknown>>;
 
-/** What can be drawn of a method over the shape: the `nodes` and `edges` of its state, or the directions of `field()`. */
+/**
+ * What can be drawn of a method over the shape: the `nodes` and `edges` of its state, or the directions of `field()`.
+ */
 export type Drawn = "graph" | "field";
 
 /** What a method's file declares. */
@@ -68,7 +70,9 @@ export interface Method extends Omit<Declaration, "live" | "loads"> {
 }
 
 /** What callers may write. */
-export type OptionsOf<D extends Declaration> = { [Name in keyof D["options"]]?: D["options"][Name] extends Option<infer Given> ? Given : never };
+export type OptionsOf<D extends Declaration> = {
+  [Name in keyof D["options"]]?: D["options"][Name] extends Option<infer Given> ? Given : never;
+};
 
 /** The same of those that are live. */
 export type LiveOf<D extends Declaration> =
@@ -77,7 +81,9 @@ export type LiveOf<D extends Declaration> =
   Record<string, never>;
 
 /** A method as the package goes by it; the declaration's own types stay. */
-export function method<const D extends Declaration>(declared: D): Omit<Method, "name"> & { readonly name: D["name"]; readonly declared: D } {
+export function method<const D extends Declaration>(
+  declared: D,
+): Omit<Method, "name"> & { readonly name: D["name"]; readonly declared: D } {
   const { options, live, loads } = declared;
   const names = Object.keys(options);
   const isLive = (name: string) => live === true || (live !== false && live.includes(name));
@@ -87,7 +93,10 @@ export function method<const D extends Declaration>(declared: D): Omit<Method, "
     check(place, given) {
       for (const name of Object.keys(given)) {
         for (const other of options[name].instead) {
-          if (other in given) place.reject(`has ${[name, other].sort((a, b) => names.indexOf(a) - names.indexOf(b)).join(" and ")}; expected one or the other`);
+          if (other in given) {
+            const both = names.filter((candidate) => candidate === name || candidate === other);
+            place.reject(`has ${both.join(" and ")}; expected one or the other`);
+          }
         }
       }
       declared.check?.(place, given);
@@ -98,7 +107,12 @@ export function method<const D extends Declaration>(declared: D): Omit<Method, "
       return { ...Object.fromEntries(Object.entries(before).filter(([name]) => !taken.has(name))), ...given };
     },
 
-    ...(loads.length > 0 ? { load: (given: Options) => loads.some((name) => Array.from((given[name] ?? []) as ArrayLike<number>).some((x) => x !== 0)) } : {}),
+    ...(loads.length > 0
+      ? {
+          load: (given: Options) =>
+            loads.some((name) => Array.from((given[name] ?? []) as ArrayLike<number>).some((x) => x !== 0)),
+        }
+      : {}),
 
     pack(given, place, shape) {
       const packed = Object.entries(given).map(([name, value]) =>
@@ -120,20 +134,34 @@ function standIns(options: Declaration["options"], name: string): string[] {
   return [...options[name].instead, ...Object.keys(options).filter((other) => options[other].instead.includes(name))];
 }
 
-function infoOf({ name, title, short, help, paper, carries, loads, curves, draws, options }: Declaration, isLive: (name: string) => boolean): MethodInfo {
+function infoOf(
+  { name, title, short, help, paper, carries, loads, curves, draws, options }: Declaration,
+  isLive: (name: string) => boolean,
+): MethodInfo {
   const infos = Object.entries(options).map(([key, { info }]) => [key, Object.freeze({ ...info, live: isLive(key) })]);
-  return Object.freeze({ name, title, short, help, paper, carries, loads: loads.length > 0, curves, draws, options: Object.freeze(Object.fromEntries(infos)) });
+  return Object.freeze({
+    name, title, short, help, paper, carries, loads: loads.length > 0, curves, draws,
+    options: Object.freeze(Object.fromEntries(infos)),
+  });
 }
 
 /** Reads the options of a method, and `more` that the caller has beside them. */
-export function readOptions(place: Place, value: unknown, method: Method, extent: Extent, more: readonly string[] = []): Options {
+export function readOptions(
+  place: Place, value: unknown, method: Method, extent: Extent, more: readonly string[] = [],
+): Options {
   const known = [...Object.keys(method.options), ...more];
   return read(place, fields(place, value, known, `option of ${method.name}`), method, extent, more);
 }
 
 /** Reads options for a deformer that is built: only those that may still change. */
 export function readLive(place: Place, value: unknown, method: Method, extent: Extent): Options {
-  return read(place, fields(place, value, method.live, `option of ${method.name} that may change during a drag`), method, extent, []);
+  return read(
+    place,
+    fields(place, value, method.live, `option of ${method.name} that may change during a drag`),
+    method,
+    extent,
+    [],
+  );
 }
 
 function read(place: Place, given: Fields, method: Method, extent: Extent, others: readonly string[]): Options {

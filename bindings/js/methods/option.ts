@@ -1,6 +1,9 @@
 // Options as methods declare them: type, reader, default, range and words of each in one place.
 
-import { choice as readChoice, flag as readFlag, integer as readInteger, type Place, points as readPoints, toSpace, vector as readVector } from "../boundary/check.js";
+import {
+  choice as readChoice, flag as readFlag, integer as readInteger, type Place, points as readPoints, toSpace,
+  vector as readVector,
+} from "../boundary/check.js";
 import { numbersOf, rowsOf } from "../boundary/lists.js";
 import type { RawValues } from "../boundary/raw.js";
 import type { Extent } from "../shape/selection.js";
@@ -8,7 +11,9 @@ import type { Shape } from "../shape/shape.js";
 
 /** What `pliant.methods` says of an option, for menus, sliders and documentation. */
 export interface OptionInfo {
-  /** "number", "integer", "boolean", "choice", "vector" and "points" as they say; others are compound: "field", "cuts". */
+  /**
+   * "number", "integer", "boolean", "choice", "vector" and "points" as they say; others are compound: "field", "cuts".
+   */
   type: string;
   /** A word or two. */
   title: string;
@@ -41,7 +46,10 @@ export interface Option<Given = unknown> {
   readonly read: OptionReader;
   /** Options that this one stands for: they are not given together. */
   readonly instead: readonly string[];
-  /** The hatch of compound options: what has been read as values of the WASM side, where that is more than one of the same name. */
+  /**
+   * The hatch of compound options: what has been read as values of the WASM side, where that is more than one of the
+   * same name.
+   */
   readonly pack?: (name: string, value: never, place: Place, shape: Shape) => RawValues;
   /** Back, as callers write it; undefined: it is not in use. */
   readonly unpack: (name: string, values: RawValues, dimension: number) => unknown;
@@ -66,10 +74,16 @@ interface Range {
   limit?: string;
 }
 
-type Behaviour = Pick<Option, "read" | "unpack"> & { pack?: (name: string, value: never, place: Place, shape: Shape) => RawValues };
+type Behaviour = Pick<Option, "read" | "unpack"> & {
+  pack?: (name: string, value: never, place: Place, shape: Shape) => RawValues;
+};
 
 /** An option of any type, also of one that is not below. */
-export function option<Given>(type: string, { instead = [], ...words }: Words & Partial<Range> & { choices?: readonly string[] }, behaviour: Behaviour): Option<Given> {
+export function option<Given>(
+  type: string,
+  { instead = [], ...words }: Words & Partial<Range> & { choices?: readonly string[] },
+  behaviour: Behaviour,
+): Option<Given> {
   const info = { type, default: null, min: null, max: null, choices: null, ...words };
   return { info, instead, ...behaviour };
 }
@@ -83,11 +97,16 @@ export function number(read: OptionReader<number>, words: Words & Range): Option
 
 /** A number, or null for none. */
 export function numberOrNull(read: OptionReader<number>, words: Words & Range): Option<number | null> {
-  return option("number", words, { read: (place, value, extent) => (value === null ? null : read(place, value, extent)), unpack: first });
+  return option("number", words, {
+    read: (place, value, extent) => (value === null ? null : read(place, value, extent)), unpack: first,
+  });
 }
 
-export function integer(from: number, to: number | "vertices", unit: string | undefined, words: Words & Range): Option<number> {
-  const read: OptionReader = (place, value, { count }) => readInteger(place, value, from, to === "vertices" ? count : to, unit);
+export function integer(
+  from: number, to: number | "vertices", unit: string | undefined, words: Words & Range,
+): Option<number> {
+  const read: OptionReader = (place, value, { count }) =>
+    readInteger(place, value, from, to === "vertices" ? count : to, unit);
   return option("integer", to === "vertices" ? { ...words, limit: to } : words, { read, unpack: first });
 }
 
@@ -96,7 +115,11 @@ export function flag(words: Words): Option<boolean> {
 }
 
 export function choice<const Names extends readonly string[]>(choices: Names, words: Words): Option<Names[number]> {
-  return option("choice", { ...words, choices }, { read: (place, value) => readChoice(place, value, choices), unpack: (name, values) => values[name] });
+  return option(
+    "choice",
+    { ...words, choices },
+    { read: (place, value) => readChoice(place, value, choices), unpack: (name, values) => values[name] },
+  );
 }
 
 /** As many numbers as the shape has dimensions; `min` and `max`: of its length. */

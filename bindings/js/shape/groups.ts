@@ -1,6 +1,8 @@
 // Vertices that are alike, found by hashing rows of numbers: a shape's size of them in a few milliseconds.
 
-/** Which rows of `width` numbers are the same, bit for bit: a group a row, numbered in the order of their first rows. */
+/**
+ * Which rows of `width` numbers are the same, bit for bit: a group a row, numbered in the order of their first rows.
+ */
 export function equalRows(values: Float64Array, width: number): { group: Uint32Array; count: number } {
   const rows = values.length / width;
   const group = new Uint32Array(rows);

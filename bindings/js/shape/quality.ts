@@ -31,7 +31,9 @@ export function measure(core: Core, shape: Shape, positions: ArrayLike<number>, 
   shapeFor(core, shape);
   const place = new Place("invalid-option", "positions");
   const given = fields(new Place("invalid-option", "options"), options, ["intersections"]);
-  const all = given.intersections === undefined || flag(new Place("invalid-option", "options.intersections"), given.intersections);
+  const all =
+    given.intersections === undefined ||
+    flag(new Place("invalid-option", "options.intersections"), given.intersections);
   const deformed = coordinates(place, positions, shape.dimension);
   const length = shape.report.vertices * shape.dimension;
   if (deformed.length !== length) place.fail(positions, `${length} numbers, ${shape.dimension} a vertex of the shape`);

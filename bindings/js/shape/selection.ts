@@ -16,7 +16,9 @@ export type Selection =
   | { every: readonly Selection[] }
   | { not: Selection };
 
-/** What a selection is checked against: vertices of the shape (a step that refines may add more), and numbers a vertex. */
+/**
+ * What a selection is checked against: vertices of the shape (a step that refines may add more), and numbers a vertex.
+ */
 export interface Extent {
   count: number;
   dimension: number;
@@ -35,7 +37,9 @@ const readers: Record<string, Reader> = {
     if (ids.length === 0) place.reject("is empty; expected vertex ids");
     return (rest) => {
       const mask = new Uint8Array(rest.length / dimension);
-      ids.forEach((id, i) => (id < mask.length ? (mask[id] = 1) : integer(place.item(i), id, 0, mask.length - 1, "a vertex id")));
+      ids.forEach((id, i) =>
+        id < mask.length ? (mask[id] = 1) : integer(place.item(i), id, 0, mask.length - 1, "a vertex id"),
+      );
       return mask;
     };
   },
@@ -43,7 +47,9 @@ const readers: Record<string, Reader> = {
     const box = fields(place, value, ["min", "max"]);
     const min = vector(place.at("min"), box.min, dimension);
     const max = vector(place.at("max"), box.max, dimension);
-    min.forEach((low, i) => low <= max[i] || place.reject(`has min[${i}] ${low} above max[${i}] ${max[i]}; expected min <= max`));
+    min.forEach(
+      (low, i) => low <= max[i] || place.reject(`has min[${i}] ${low} above max[${i}] ${max[i]}; expected min <= max`),
+    );
     return where(dimension, (p, at) => min.every((low, i) => p[at + i] >= low && p[at + i] <= max[i]));
   },
   sphere(place, value, { dimension }) {

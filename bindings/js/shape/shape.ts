@@ -93,7 +93,9 @@ function readInput(value: unknown) {
   const place = new Place("invalid-shape", "");
   const input = fields(new Place("invalid-shape", "shape"), value, ["positions", "triangles", "dimension", ...ofFiles]);
   const dimension = input.dimension === undefined ? 3 : readDimension(place.at("dimension"), input.dimension);
-  const positions = readCount(place.at("positions"), coordinates(place.at("positions"), input.positions, dimension), dimension, maxVertices);
+  const positions = readCount(
+    place.at("positions"), coordinates(place.at("positions"), input.positions, dimension), dimension, maxVertices,
+  );
   const triangles = readTriangles(place.at("triangles"), input.triangles ?? [], positions.length / dimension);
   return {
     dimension,
@@ -113,12 +115,16 @@ function readTriangles(place: Place, value: unknown, vertices: number): ArrayLik
   if (ids.length % 3 !== 0) place.fail(ids, `${expected}: a length divisible by 3`);
   readCount(place, ids, 3, maxTriangles);
   for (let i = 0; i < ids.length; ++i) {
-    if (!(ids[i] >= 0 && ids[i] < vertices && Number.isInteger(ids[i]))) integer(place.item(i), ids[i], 0, vertices - 1, "a vertex id");
+    if (!(ids[i] >= 0 && ids[i] < vertices && Number.isInteger(ids[i]))) {
+      integer(place.item(i), ids[i], 0, vertices - 1, "a vertex id");
+    }
   }
   return ids;
 }
 
 function readCount(place: Place, values: ArrayLike<number>, size: number, max: number): ArrayLike<number> {
   if (values.length <= size * max) return values;
-  throw new PliantError("too-large", `${place.path} holds ${values.length / size} entries of ${size} numbers; expected at most ${max}`);
+  throw new PliantError(
+    "too-large", `${place.path} holds ${values.length / size} entries of ${size} numbers; expected at most ${max}`,
+  );
 }

@@ -33,7 +33,8 @@ export function readTransform(place: Place, value: unknown, dimension: number): 
     return { kind: "matrix", matrix: readMatrix(place.at("matrix"), move.matrix, dimension) };
   }
   const space = (at: Place, v: unknown) => Array.from(toSpace(vector(at, v, dimension), dimension));
-  const rotate = move.rotate === undefined ? undefined : fields(place.at("rotate"), move.rotate, ["axis", "degrees", "about"]);
+  const rotate =
+    move.rotate === undefined ? undefined : fields(place.at("rotate"), move.rotate, ["axis", "degrees", "about"]);
   const turn = place.at("rotate");
   return {
     kind: "steps",
@@ -54,8 +55,12 @@ function readAxis(place: Place, value: unknown, dimension: number): number[] {
 
 function readMatrix(place: Place, value: unknown, dimension: number): number[] {
   const m = vector(place, value, 16);
-  if (m[3] !== 0 || m[7] !== 0 || m[11] !== 0 || m[15] !== 1) place.reject("has a last row other than 0 0 0 1; expected an affine matrix, column by column");
-  if (dimension === 2 && (m[2] !== 0 || m[6] !== 0 || m[14] !== 0)) place.reject("leaves the plane; expected a matrix that keeps z = 0");
+  if (m[3] !== 0 || m[7] !== 0 || m[11] !== 0 || m[15] !== 1) {
+    place.reject("has a last row other than 0 0 0 1; expected an affine matrix, column by column");
+  }
+  if (dimension === 2 && (m[2] !== 0 || m[6] !== 0 || m[14] !== 0)) {
+    place.reject("leaves the plane; expected a matrix that keeps z = 0");
+  }
   return m;
 }
 
@@ -63,7 +68,9 @@ function readMatrix(place: Place, value: unknown, dimension: number): number[] {
 export function packMotion({ scale, axis, degrees, about, translate }: Steps, center: number[]): RawValues {
   const angle = (degrees * Math.PI) / 180;
   // Without a scale the centre plays no part: as the origin it costs no rounding either.
-  return { scale, center: scale === 1 ? [0, 0, 0] : center, axis, angle, about: about ?? center, translation: translate };
+  return {
+    scale, center: scale === 1 ? [0, 0, 0] : center, axis, angle, about: about ?? center, translation: translate,
+  };
 }
 
 /** Where a motion takes points, `dimension` numbers each; `center`: theirs, in space. */
@@ -80,7 +87,8 @@ export function applyMotion(motion: Motion, points: Float64Array, center: number
     [z * x * v - y * sine, z * y * v + x * sine, z * z * v + cosine],
   ];
   const row = (r: number) => turn[r].map((m) => m * scale);
-  const offset = (r: number) => about[r] + translate[r] + turn[r].reduce((sum, m, c) => sum + m * ((1 - scale) * center[c] - about[c]), 0);
+  const offset = (r: number) =>
+    about[r] + translate[r] + turn[r].reduce((sum, m, c) => sum + m * ((1 - scale) * center[c] - about[c]), 0);
   const columns = [0, 1, 2].map((c) => [0, 1, 2].map((r) => row(r)[c]));
   const matrix = [...columns.flatMap((column) => [...column, 0]), offset(0), offset(1), offset(2), 1];
   return applyMatrix(matrix, points, dimension);

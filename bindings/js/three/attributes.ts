@@ -26,8 +26,8 @@ export function writeAttribute(attribute: Attribute, values: Float32Array): void
 }
 
 /**
- * The attribute itself where it holds floats. Quantised ones wrap where a deformation leaves their range, so that a plain
- * one of floats takes their place.
+ * The attribute itself where it holds floats. Quantised ones wrap where a deformation leaves their range, so that a
+ * plain one of floats takes their place.
  */
 export function ofFloats(attribute: Attribute): Attribute {
   if (attribute.array instanceof Float32Array || attribute.array instanceof Float64Array) return attribute;

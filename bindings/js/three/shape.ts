@@ -9,7 +9,10 @@ import { snapped } from "./weld.js";
 /** Vertices closer than this part of the size are one: generated geometries close their seams only so well. */
 const seam = 1e-6;
 
-/** The shape of a geometry, indexed or not, for `pliant.shape`. `points`: leave out the triangles. Errors: invalid-shape. */
+/**
+ * The shape of a geometry, indexed or not, for `pliant.shape`. `points`: leave out the triangles. Errors:
+ * invalid-shape.
+ */
 export function shapeOf(geometry: BufferGeometry, { points = false } = {}): ShapeInput & { positions: Float32Array } {
   const positions = restOf(geometry);
   return points ? { positions } : { positions, triangles: trianglesOf(geometry, positions.length / 3) };

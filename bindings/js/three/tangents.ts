@@ -1,7 +1,9 @@
 // Tangents that follow a deformation: they lie in the triangles around their vertex and move with their edges, as the
 // gradients of texture coordinates do.
 
-/** Tangents at rest, four numbers a vertex (the last is their handedness), in the edges of the triangles around them. */
+/**
+ * Tangents at rest, four numbers a vertex (the last is their handedness), in the edges of the triangles around them.
+ */
 export class TangentFrames {
   readonly #triangles: Uint32Array;
   /** Of each corner of a triangle: its vertex's tangent = a (q - p) + b (r - p) over the triangle's p, q, r. */

@@ -12,7 +12,10 @@ export function snapped(positions: Float32Array, tolerance: number): Float32Arra
   return result;
 }
 
-/** Buckets of the vertices that others snap to, by cells four tolerances wide: what is near lies in one to eight of them. */
+/**
+ * Buckets of the vertices that others snap to, by cells four tolerances wide: what is near lies in one to eight of
+ * them.
+ */
 class Grid {
   readonly #p: Float32Array;
   readonly #tolerance: number;

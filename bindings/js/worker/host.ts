@@ -82,7 +82,9 @@ class Host {
     return pliant;
   }
 
-  #arguments({ id, target, args, objects = [], local = [], doubles }: Call, { options = 0, changes }: Travel): unknown[] {
+  #arguments(
+    { id, target, args, objects = [], local = [], doubles }: Call, { options = 0, changes }: Travel,
+  ): unknown[] {
     if (changes !== undefined) {
       args[changes] = patched(this.#given.get(target), args[changes] as Patch);
       this.#given.set(target, args[changes]);
@@ -107,7 +109,9 @@ class Host {
     if (!name) return value;
     const object = value === this.#objects.get(0) ? 0 : ++this.#last;
     this.#objects.set(object, value as object);
-    const constants = Object.fromEntries(rowOf(name).constants.map((key) => [key, (value as Record<string, unknown>)[key]]));
+    const constants = Object.fromEntries(
+      rowOf(name).constants.map((key) => [key, (value as Record<string, unknown>)[key]]),
+    );
     return { object, constants } satisfies Reference;
   }
 

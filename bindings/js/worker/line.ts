@@ -28,7 +28,9 @@ export class Line {
   constructor(port: WorkerPort, readonly onClose: () => void) {
     this.#port = port;
     port.listen((replies: Reply[]) => replies.forEach((reply) => this.#receive(reply)));
-    port.onFailure((reason) => this.close(new PliantError("crashed", `the worker stopped: ${reason}; init() starts another`)));
+    port.onFailure((reason) =>
+      this.close(new PliantError("crashed", `the worker stopped: ${reason}; init() starts another`)),
+    );
     port.busy(false);
   }
 
@@ -40,7 +42,9 @@ export class Line {
   call<T>(call: Omit<Call, "id">, local: Local = {}): Promise<T> {
     if (this.#closed) return Promise.reject(this.#closed);
     const { signal } = local;
-    if (signal?.aborted) return Promise.reject(new PliantError("aborted", "the signal was aborted", { cause: signal.reason }));
+    if (signal?.aborted) {
+      return Promise.reject(new PliantError("aborted", "the signal was aborted", { cause: signal.reason }));
+    }
     const id = ++this.#last;
     const sent = { ...call, id, args: ownCopy(call.method, call.args) };
     const answer = new Promise<T>((resolve, reject) => this.#pending.set(id, { ...local, resolve, reject }));

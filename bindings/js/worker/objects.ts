@@ -67,7 +67,9 @@ function remote(name: ClassName): typeof Remote {
   class Listed extends Remote {}
   for (const [method, travel] of Object.entries(rowOf(name).calls)) {
     const value = function (this: Remote, ...args: unknown[]) {
-      return this.send(method, travel, args, (reference) => made(travel.gives as keyof typeof classes, this.line, reference, { asked: this, args }));
+      return this.send(method, travel, args, (reference) =>
+        made(travel.gives as keyof typeof classes, this.line, reference, { asked: this, args }),
+      );
     };
     Object.defineProperty(Listed.prototype, method, { value, writable: true, configurable: true });
   }
@@ -77,7 +79,9 @@ function remote(name: ClassName): typeof Remote {
 /** See {@link Pliant}. */
 export interface WorkerPliant extends Omit<Seen<Pliant, "Pliant">, "deformer"> {
   /** Builds a deformer over a shape. Errors: invalid-option, too-large. */
-  deformer<M extends MethodName>(shape: WorkerShape, options: { method: M } & DeformerOptions<M>): Promise<WorkerDeformer<M>>;
+  deformer<M extends MethodName>(
+    shape: WorkerShape, options: { method: M } & DeformerOptions<M>,
+  ): Promise<WorkerDeformer<M>>;
 }
 export class WorkerPliant extends remote("Pliant") {
   readonly #wasm: () => Promise<InitOptions>;

@@ -1,7 +1,8 @@
 // Immutable values that change little from one to the next: what differs travels, what is the same object does not.
 
 /** `kept`: the part of the value before; `head`: so many items of a list are kept, `tail` follows. */
-export type Patch = { kept: true } | { value: unknown } | { head: number; tail: Patch[] } | { fields: Record<string, Patch> };
+export type Patch =
+  { kept: true } | { value: unknown } | { head: number; tail: Patch[] } | { fields: Record<string, Patch> };
 
 type Fields = Readonly<Record<string, unknown>>;
 

@@ -1,6 +1,6 @@
-// What the page and its worker say to each other. Objects live in the worker and are known by number. Calls that are made
-// together travel in one message, and so do the answers that are there at once: a frame that steps and asks for positions
-// and normals costs one message each way.
+// What the page and its worker say to each other. Objects live in the worker and are known by number. Calls that are
+// made together travel in one message, and so do the answers that are there at once: a frame that steps and asks for
+// positions and normals costs one message each way.
 
 import { PliantError, type ErrorCode } from "../boundary/errors.js";
 

@@ -41,7 +41,9 @@ export class Remote {
   }
 
   /** A call as its row of the table says; `make` turns what it gives into an object of this side. @internal */
-  async send(method: string, travel: Travel, args: readonly unknown[], make: (reference: Reference) => Remote): Promise<unknown> {
+  async send(
+    method: string, travel: Travel, args: readonly unknown[], make: (reference: Reference) => Remote,
+  ): Promise<unknown> {
     // An object in a worker that is gone is gone too.
     if (travel.ends && this.#line.closed) return undefined;
     const { call, local, out } = this.#pack(method, travel, args);

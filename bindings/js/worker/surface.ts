@@ -1,8 +1,8 @@
 // What a page may call in its worker, and how each call travels: the one table that both sides go by.
 //
-// A class of the package gets a row here, a line in `classes` of host.ts, and a class in objects.ts, whose types are made
-// from its own. A call that is listed is there on the page, answers by a promise, and keeps its name, arguments, result
-// and documentation.
+// A class of the package gets a row here, a line in `classes` of host.ts, and a class in objects.ts, whose types are
+// made from its own. A call that is listed is there on the page, answers by a promise, and keeps its name, arguments,
+// result and documentation.
 
 import type { Deformer } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
@@ -35,7 +35,9 @@ export interface Travel {
   readonly into?: number;
   /** The first argument is any iterable of vertex ids, called so in errors; what travels is a list. */
   readonly ids?: string;
-  /** Which argument is an immutable value, given again and again: what travels is how it differs from the one before. */
+  /**
+   * Which argument is an immutable value, given again and again: what travels is how it differs from the one before.
+   */
   readonly changes?: number;
   /** The object is gone after it, and may be gone before. */
   readonly ends?: true;
@@ -60,7 +62,8 @@ const ends = { ends: true } as const;
 
 /** What deformers and sketches have in common. */
 const deformation = {
-  positions: into, normals: into, transformPoints: { into: 1 }, state: plain, restore: plain, reset: plain, dispose: ends,
+  positions: into, normals: into, transformPoints: { into: 1 }, state: plain, restore: plain, reset: plain,
+  dispose: ends,
 } as const;
 
 export const surface = {
@@ -89,9 +92,10 @@ export const surface = {
   Sketch: {
     constants: [],
     calls: {
-      redraw: plain, held: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain, twistSpeed: plain,
-      setSmooth: plain, morph: plain, pose: plain, setPose: plain, refine: plain, unrefine: plain, labels: plain,
-      parameters: into, reference: plain, target: plain, restPositions: into, seed: plain, ...deformation,
+      redraw: plain, held: plain, bend: plain, unbend: plain, twist: plain, scale: plain, turning: plain,
+      twistSpeed: plain, setSmooth: plain, morph: plain, pose: plain, setPose: plain, refine: plain, unrefine: plain,
+      labels: plain, parameters: into, reference: plain, target: plain, restPositions: into, seed: plain,
+      ...deformation,
     },
   },
   Edit: {

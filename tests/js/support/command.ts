@@ -12,7 +12,9 @@ export class Folder {
   /** The command as npm links it. */
   run(...args: string[]): { status: number | null; out: string; err: string } {
     const command = join(consumer, "node_modules/.bin/pliant");
-    const { status, stdout, stderr } = spawnSync(process.execPath, [command, ...args], { cwd: this.path, encoding: "utf8" });
+    const { status, stdout, stderr } = spawnSync(process.execPath, [command, ...args], {
+      cwd: this.path, encoding: "utf8",
+    });
     return { status, out: stdout, err: stderr };
   }
 
@@ -45,5 +47,10 @@ export class Folder {
 
 /** Coordinates of the `v` lines of an OBJ file. */
 export function objPositions(text: string): Float64Array {
-  return Float64Array.from(text.split("\n").filter((line) => line.startsWith("v ")).flatMap((line) => line.split(/\s+/).slice(1, 4).map(Number)));
+  return Float64Array.from(
+    text
+      .split("\n")
+      .filter((line) => line.startsWith("v "))
+      .flatMap((line) => line.split(/\s+/).slice(1, 4).map(Number)),
+  );
 }

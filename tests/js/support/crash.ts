@@ -10,7 +10,9 @@ export function crampedWasm(pages: number): Uint8Array<ArrayBuffer> {
   const [, limits] = number(bytes, sectionOf(bytes, memorySection)); // how many memories
   const [, most] = number(bytes, limits + 1); // flags, the least size
   const [before, end] = number(bytes, most);
-  if (bytes[limits] !== 1 || end - most !== 3) throw new Error(`the largest size is ${before} in ${end - most} bytes; expected 3`);
+  if (bytes[limits] !== 1 || end - most !== 3) {
+    throw new Error(`the largest size is ${before} in ${end - most} bytes; expected 3`);
+  }
   bytes.set([(pages & 127) | 128, ((pages >> 7) & 127) | 128, pages >> 14], most);
   return bytes;
 }

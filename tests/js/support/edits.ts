@@ -15,10 +15,17 @@ export interface EditCase {
 
 const left = half([-1, 0, 0], -0.1);
 const solve = { iterations: 400, tolerance: 1e-9 };
-const hand = (z: number, degrees: number) => ({ name: "hand", select: half([1, 0, 0], 0.9), move: { translate: [-0.05, 0, z], rotate: { axis: [0, 1, 0], degrees } } });
+const hand = (z: number, degrees: number) => ({
+  name: "hand", select: half([1, 0, 0], 0.9), move: { translate: [-0.05, 0, z], rotate: { axis: [0, 1, 0], degrees } },
+});
 const lift = (method: string, options: object): EditCase => {
   const step = { method, options, fixed: [left], handles: [hand(0.25, -20)], solve };
-  return { mesh: sheet(13), step, moved: { ...step, handles: [hand(0.3, -35)] }, held: { ...step, fixed: [half([-1, 0, 0], -0.2)] } };
+  return {
+    mesh: sheet(13),
+    step,
+    moved: { ...step, handles: [hand(0.3, -35)] },
+    held: { ...step, fixed: [half([-1, 0, 0], -0.2)] },
+  };
 };
 
 const drawn = { method: "sketch", camera, reference: straight };
@@ -29,10 +36,33 @@ export const editCases: Record<string, EditCase> = {
   "embedded-graph": lift("embedded-graph", { nodeCount: 30 }),
   "edge-material": lift("edge-material", { stretch: 3, bend: 0.5 }),
   arap: lift("arap", { smoothness: 0.05 }),
-  sketch: { mesh: limb(12, 31), step: { ...drawn, bend: { target: arc } }, moved: { ...drawn, bend: { target: longArc }, twist: { degrees: 40 } }, held: { ...short, bend: { target: arc } } },
-  "sketch, finished": { mesh: limb(12, 31), step: { ...drawn, bend: { target: arc }, finish }, moved: { ...drawn, bend: { target: arc }, twist: { degrees: 30 }, finish }, held: { ...short, bend: { target: arc }, finish } },
+  sketch: {
+    mesh: limb(12, 31),
+    step: { ...drawn, bend: { target: arc } },
+    moved: { ...drawn, bend: { target: longArc }, twist: { degrees: 40 } },
+    held: { ...short, bend: { target: arc } },
+  },
+  "sketch, finished": {
+    mesh: limb(12, 31),
+    step: { ...drawn, bend: { target: arc }, finish },
+    moved: { ...drawn, bend: { target: arc }, twist: { degrees: 30 }, finish },
+    held: { ...short, bend: { target: arc }, finish },
+  },
   place: (() => {
-    const part = (degrees: number) => ({ method: "place", parts: [{ select: half([1, 0, 0], 0.9), move: { scale: 1.5, rotate: { axis: [0, 1, 1], degrees }, translate: [0, 0, 0.2] } }] });
-    return { mesh: sheet(13), step: part(30), moved: part(50), held: { ...part(30), parts: [{ ...part(30).parts[0], select: half([1, 0, 0], 0.8) }] } };
+    const part = (degrees: number) => ({
+      method: "place",
+      parts: [
+        {
+          select: half([1, 0, 0], 0.9),
+          move: { scale: 1.5, rotate: { axis: [0, 1, 1], degrees }, translate: [0, 0, 0.2] },
+        },
+      ],
+    });
+    return {
+      mesh: sheet(13),
+      step: part(30),
+      moved: part(50),
+      held: { ...part(30), parts: [{ ...part(30).parts[0], select: half([1, 0, 0], 0.8) }] },
+    };
   })(),
 };

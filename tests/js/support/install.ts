@@ -28,7 +28,8 @@ export * as three from "pliant/three";
 export default function setup({ provide }: TestProject): () => void {
   if (!existsSync(join(root, "dist/pliant.js"))) throw new Error("dist/ is missing; run: npm run build");
   const consumer = mkdtempSync(join(tmpdir(), "pliant-consumer-"));
-  const npm = (args: string[], cwd: string) => execFileSync("npm", [...args, "--loglevel=error"], { cwd, encoding: "utf8" });
+  const npm = (args: string[], cwd: string) =>
+    execFileSync("npm", [...args, "--loglevel=error"], { cwd, encoding: "utf8" });
   const [{ filename }] = JSON.parse(npm(["pack", "--json", "--ignore-scripts", "--pack-destination", consumer], root));
   const tarball = join(consumer, filename);
   writeFileSync(join(consumer, "package.json"), JSON.stringify({ name: "consumer", private: true, type: "module" }));

@@ -16,11 +16,15 @@ export function limb(around = 24, along = 61, x = 0): Mesh {
   }
   const id = (i: number, j: number) => (i % around) + around * j;
   for (let j = 0; j + 1 < along; ++j) {
-    for (let i = 0; i < around; ++i) triangles.push(id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j), id(i + 1, j + 1), id(i, j + 1));
+    for (let i = 0; i < around; ++i) {
+      triangles.push(id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j), id(i + 1, j + 1), id(i, j + 1));
+    }
   }
   const bottom = positions.length / 3;
   positions.push(x, 0, 0, x, 0, 1);
-  for (let i = 0; i < around; ++i) triangles.push(bottom, id(i + 1, 0), id(i, 0), bottom + 1, id(i, along - 1), id(i + 1, along - 1));
+  for (let i = 0; i < around; ++i) {
+    triangles.push(bottom, id(i + 1, 0), id(i, 0), bottom + 1, id(i, along - 1), id(i + 1, along - 1));
+  }
   return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
 }
 
@@ -28,15 +32,25 @@ export function limb(around = 24, along = 61, x = 0): Mesh {
 export function twoLimbs(): Mesh {
   const [a, b] = [limb(24, 61, 0.2), limb(24, 61, -0.2)];
   const shift = a.positions.length / 3;
-  return { positions: Float64Array.of(...a.positions, ...b.positions), triangles: Uint32Array.of(...a.triangles, ...b.triangles.map((v) => v + shift)) };
+  return {
+    positions: Float64Array.of(...a.positions, ...b.positions),
+    triangles: Uint32Array.of(...a.triangles, ...b.triangles.map((v) => v + shift)),
+  };
 }
 
-export const camera = { eye: [0, -5, 0.5], target: [0, 0, 0.5], up: [0, 0, 1], orthographicHeight: 2, width: 1000, height: 1000 };
+export const camera = {
+  eye: [0, -5, 0.5], target: [0, 0, 0.5], up: [0, 0, 1], orthographicHeight: 2, width: 1000, height: 1000,
+};
 
 export const pixel = (x: number, z: number): number[] => [500 + 500 * x, 750 - 500 * z];
 
-/** Pixels along a curve that starts upwards and turns to the left by `curvature(t)` radians over its length, t from 0 to 1. */
-export function curved(x: number, z: number, length: number, curvature: (t: number) => number, samples = 81): number[][] {
+/**
+ * Pixels along a curve that starts upwards and turns to the left by `curvature(t)` radians over its length, t from 0 to
+ * 1.
+ */
+export function curved(
+  x: number, z: number, length: number, curvature: (t: number) => number, samples = 81,
+): number[][] {
   const pixels = [pixel(x, z)];
   let heading = Math.PI / 2;
   for (let i = 0; i + 1 < samples; ++i) {

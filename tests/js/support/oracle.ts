@@ -27,11 +27,15 @@ const times = (a: Vector, s: number) => a.map((x) => x * s);
 const dot = (a: Vector, b: Vector) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 const apply = (r: Vector, v: Vector) => [0, 3, 6].map((row) => r[row] * v[0] + r[row + 1] * v[1] + r[row + 2] * v[2]);
 const column = (r: Vector, c: number) => [r[c], r[c + 3], r[c + 6]];
-const vertexOf = (positions: ArrayLike<number>, v: number) => [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
+const vertexOf = (positions: ArrayLike<number>, v: number) => [
+  positions[3 * v], positions[3 * v + 1], positions[3 * v + 2],
+];
 
 /** Eq. 4: the weight of every node on a vertex, by node; nodes without influence are left out. */
 export function weights(state: GraphState, vertex: Vector): Map<number, number> {
-  const order = state.nodes.map((g, j) => ({ j, distance: Math.hypot(...minus(vertex, g)) })).sort((a, b) => a.distance - b.distance);
+  const order = state.nodes
+    .map((g, j) => ({ j, distance: Math.hypot(...minus(vertex, g)) }))
+    .sort((a, b) => a.distance - b.distance);
   const { k } = state.influences;
   const farthest = order[k].distance;
   const raw = order.slice(0, k).map(({ j, distance }) => [j, (1 - distance / farthest) ** 2] as const);
@@ -73,7 +77,9 @@ interface NodeGradient {
 }
 
 /** Eq. 5 to 8 in the state's length unit, and the gradient of their weighted sum. */
-export function evaluate(state: GraphState, rest: ArrayLike<number>, w: Terms): { terms: Terms; gradient: NodeGradient[] } {
+export function evaluate(
+  state: GraphState, rest: ArrayLike<number>, w: Terms,
+): { terms: Terms; gradient: NodeGradient[] } {
   const unit = 1 / state.lengthUnit;
   const g = state.nodes.map((node) => times(node, unit));
   const t = state.translations.map((translation) => times(translation, unit));
@@ -81,9 +87,12 @@ export function evaluate(state: GraphState, rest: ArrayLike<number>, w: Terms): 
   const terms = { rotation: 0, regularization: 0, constraint: 0 };
   const gradient = g.map(() => ({ rotation: Array<number>(9).fill(0), translation: [0, 0, 0] }));
   const outer = (j: number, a: Vector, b: Vector, s: number) => {
-    for (let row = 0; row < 3; ++row) for (let c = 0; c < 3; ++c) gradient[j].rotation[3 * row + c] += s * a[row] * b[c];
+    for (let row = 0; row < 3; ++row) {
+      for (let c = 0; c < 3; ++c) gradient[j].rotation[3 * row + c] += s * a[row] * b[c];
+    }
   };
-  const shift = (j: number, a: Vector, s: number) => (gradient[j].translation = plus(gradient[j].translation, times(a, s)));
+  const shift = (j: number, a: Vector, s: number) =>
+    (gradient[j].translation = plus(gradient[j].translation, times(a, s)));
 
   for (const j of g.keys()) {
     for (let a = 0; a < 3; ++a) {

@@ -19,8 +19,13 @@ export const entries = (await import(/* @vite-ignore */ pathToFileURL(join(consu
 export const pliant = await entries.pliant.init();
 export const { PliantError } = entries.pliant;
 
-/** What an action throws or rejects with: a PliantError's code, message and cause, anything else as it is. `inline` has a class of its own. */
-export async function errorOf(action: () => unknown, ErrorClass = PliantError): Promise<{ code: string; message: string; cause?: unknown }> {
+/**
+ * What an action throws or rejects with: a PliantError's code, message and cause, anything else as it is. `inline` has
+ * a class of its own.
+ */
+export async function errorOf(
+  action: () => unknown, ErrorClass = PliantError,
+): Promise<{ code: string; message: string; cause?: unknown }> {
   try {
     await action();
   } catch (error) {

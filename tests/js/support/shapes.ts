@@ -72,12 +72,16 @@ export function barObj(segments: number): string {
   lines.push("usemtl skin");
   const corner = (i: number, j: number) => `${4 * i + (j % 4) + 1}/${5 * i + j + 1}`;
   for (let i = 0; i < segments; ++i) {
-    for (let j = 0; j < 4; ++j) lines.push(`f ${corner(i, j)} ${corner(i, j + 1)} ${corner(i + 1, j + 1)} ${corner(i + 1, j)}`);
+    for (let j = 0; j < 4; ++j) {
+      lines.push(`f ${corner(i, j)} ${corner(i, j + 1)} ${corner(i + 1, j + 1)} ${corner(i + 1, j)}`);
+    }
   }
   return `${lines.join("\n")}\n`;
 }
 
 /** Ids of the vertices that pass a test of their coordinates. */
 export function where(positions: Float64Array, test: (x: number, y: number, z: number) => boolean): number[] {
-  return Array.from({ length: positions.length / 3 }, (_, v) => v).filter((v) => test(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]));
+  return Array.from({ length: positions.length / 3 }, (_, v) => v).filter((v) =>
+    test(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]),
+  );
 }

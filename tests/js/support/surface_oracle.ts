@@ -17,7 +17,17 @@ export interface ArapState extends SurfaceState {
 }
 
 export interface EdgeMaterialState extends SurfaceState {
-  edges: { i: number; j: number; l: number; m: number; alpha: number; beta: number; rho: number; sigma: number; kappa: number }[];
+  edges: {
+    i: number;
+    j: number;
+    l: number;
+    m: number;
+    alpha: number;
+    beta: number;
+    rho: number;
+    sigma: number;
+    kappa: number;
+  }[];
   weights: { lambda: number; mu: number; pStretch: number; pBend: number; gravity: number[] };
   /** Vertices that gravity does not act on. */
   floating: number[];
@@ -27,7 +37,9 @@ export interface EdgeMaterialState extends SurfaceState {
 
 const minus = (a: Vector, b: Vector) => a.map((x, i) => x - b[i]);
 const dot = (a: Vector, b: Vector) => a.reduce((sum, x, i) => sum + x * b[i], 0);
-const cross = (a: Vector, b: Vector) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = (a: Vector, b: Vector) => [
+  a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0],
+];
 const apply = (r: Vector, v: Vector) => [0, 3, 6].map((row) => r[row] * v[0] + r[row + 1] * v[1] + r[row + 2] * v[2]);
 const squared = (v: Vector) => dot(v, v);
 
@@ -37,7 +49,9 @@ export const restOf = ({ positions }: Mesh): number[][] =>
 /** a, b, and the vertex across, for each edge of each triangle, in its order. */
 function* sides({ triangles }: Mesh): Generator<[a: number, b: number, across: number]> {
   for (let t = 0; t < triangles.length / 3; ++t) {
-    for (let c = 0; c < 3; ++c) yield [triangles[3 * t + c], triangles[3 * t + ((c + 1) % 3)], triangles[3 * t + ((c + 2) % 3)]];
+    for (let c = 0; c < 3; ++c) {
+      yield [triangles[3 * t + c], triangles[3 * t + ((c + 1) % 3)], triangles[3 * t + ((c + 2) % 3)]];
+    }
   }
 }
 
@@ -47,7 +61,9 @@ const key = (a: number, b: number) => `${Math.min(a, b)} ${Math.max(a, b)}`;
 export function cotangentWeights(mesh: Mesh): Map<string, number> {
   const rest = restOf(mesh);
   const weights = new Map<string, number>();
-  for (const [a, b, c] of sides(mesh)) weights.set(key(a, b), (weights.get(key(a, b)) ?? 0) + cotangent(rest, a, b, c) / 2);
+  for (const [a, b, c] of sides(mesh)) {
+    weights.set(key(a, b), (weights.get(key(a, b)) ?? 0) + cotangent(rest, a, b, c) / 2);
+  }
   return weights;
 }
 
@@ -62,7 +78,9 @@ type Cell = [point: number, a: number, b: number, weight: number];
 function cells(mesh: Mesh, rims: boolean): Cell[] {
   if (rims) {
     const rest = restOf(mesh);
-    return Array.from(sides(mesh)).flatMap(([a, b, c]) => [a, b, c].map((point): Cell => [point, a, b, cotangent(rest, a, b, c) / 2]));
+    return Array.from(sides(mesh)).flatMap(([a, b, c]) =>
+      [a, b, c].map((point): Cell => [point, a, b, cotangent(rest, a, b, c) / 2]),
+    );
   }
   return Array.from(cotangentWeights(mesh)).flatMap(([edge, weight]) => {
     const [a, b] = edge.split(" ").map(Number);
@@ -70,8 +88,13 @@ function cells(mesh: Mesh, rims: boolean): Cell[] {
   });
 }
 
-/** Sorkine & Alexa, eq. 7, or with rims that of Chao et al.; half its gradient at each vertex; and how far each rotation is from the best. */
-export function evaluateArap(state: ArapState, mesh: Mesh, rims: boolean): { energy: number; gradient: number[][]; turning: number } {
+/**
+ * Sorkine & Alexa, eq. 7, or with rims that of Chao et al.; half its gradient at each vertex; and how far each rotation
+ * is from the best.
+ */
+export function evaluateArap(
+  state: ArapState, mesh: Mesh, rims: boolean,
+): { energy: number; gradient: number[][]; turning: number } {
   const rest = restOf(mesh);
   const gradient = rest.map(() => [0, 0, 0]);
   const torques = rest.map(() => [0, 0, 0]);
@@ -133,7 +156,11 @@ export function restErrors({ edges }: EdgeMaterialState, mesh: Mesh): { rho: num
   const hinges = edges.filter(({ l }) => l >= 0);
   return {
     rho: Math.max(...edges.map(({ i, j, rho }) => Math.abs(Math.sqrt(squared(minus(rest[i], rest[j]))) - rho))),
-    sigma: Math.max(...hinges.map((edge) => Math.sqrt(squared(minus(across(edge, rest), normals.get(key(edge.i, edge.j))!.map((n) => edge.sigma * n)))))),
+    sigma: Math.max(
+      ...hinges.map((edge) =>
+        Math.sqrt(squared(minus(across(edge, rest), normals.get(key(edge.i, edge.j))!.map((n) => edge.sigma * n)))),
+      ),
+    ),
   };
 }
 

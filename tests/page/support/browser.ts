@@ -30,8 +30,11 @@ export async function serve(folder: string, headers: Record<string, string> = {}
   const server: Server = createServer((request, response) => {
     const path = new URL(request.url!, "http://localhost").pathname;
     const file = normalize(join(folder, path.endsWith("/") ? `${path}index.html` : path));
-    const content = pages[path] ?? (statSync(file, { throwIfNoEntry: false })?.isFile() ? readFileSync(file) : undefined);
-    response.writeHead(content === undefined ? 404 : 200, { "Content-Type": types[extname(file)] ?? "text/plain", ...headers });
+    const content =
+      pages[path] ?? (statSync(file, { throwIfNoEntry: false })?.isFile() ? readFileSync(file) : undefined);
+    response.writeHead(content === undefined ? 404 : 200, {
+      "Content-Type": types[extname(file)] ?? "text/plain", ...headers,
+    });
     response.end(content);
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
@@ -79,8 +82,12 @@ export const demoFile = pathToFileURL(join(dist, "demo/index.html")).href;
 /** `tool`: the one to start with instead of the page's own. */
 export type DemoOptions = BrowserContextOptions & { tool?: string };
 
-export async function openDemo(browser: Browser, address: string, { tool, ...options }: DemoOptions = {}): Promise<Demo> {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, acceptDownloads: true, ...options });
+export async function openDemo(
+  browser: Browser, address: string, { tool, ...options }: DemoOptions = {},
+): Promise<Demo> {
+  const context = await browser.newContext({
+    viewport: { width: 1000, height: 640 }, acceptDownloads: true, ...options,
+  });
   const page = await context.newPage();
   const errors = errorsOf(page);
   const requests: string[] = [];
@@ -125,7 +132,9 @@ export async function openDemo(browser: Browser, address: string, { tool, ...opt
 export function farthest(a: ArrayLike<number>, b: ArrayLike<number>, vertices?: Iterable<number>): number {
   let worst = 0;
   for (const v of vertices ?? Array(a.length / 3).keys()) {
-    worst = Math.max(worst, Math.hypot(a[3 * v]! - b[3 * v]!, a[3 * v + 1]! - b[3 * v + 1]!, a[3 * v + 2]! - b[3 * v + 2]!));
+    worst = Math.max(
+      worst, Math.hypot(a[3 * v]! - b[3 * v]!, a[3 * v + 1]! - b[3 * v + 1]!, a[3 * v + 2]! - b[3 * v + 2]!),
+    );
   }
   return worst;
 }

@@ -18,4 +18,5 @@ export async function replay(script: unknown, positions: number[], triangles: nu
 }
 
 /** The script of the page as it is, run over the shape as it was opened. */
-export const replayed = async () => replay(await ask((hook) => hook.script()), await rest(), await ask((hook) => hook.triangles()));
+export const replayed = async () =>
+  replay(await ask((hook) => hook.script()), await rest(), await ask((hook) => hook.triangles()));

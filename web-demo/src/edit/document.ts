@@ -31,7 +31,10 @@ export interface DragEntry {
 export interface Grab {
   readonly start: ReadonlyMap<number, Motion>;
   readonly options: Options;
-  /** Iterations of the step's own solve, and whether it came to rest; `cut`: it ended after so many, for a handle was moved. */
+  /**
+   * Iterations of the step's own solve, and whether it came to rest; `cut`: it ended after so many, for a handle was
+   * moved.
+   */
   readonly solved: number;
   readonly settled: boolean;
   readonly cut?: number;
@@ -57,7 +60,9 @@ export interface Doc {
   readonly grab: Grab;
 }
 
-export function makeHandle(shape: ShapeData, id: number, name: string, vertices: Uint32Array, motion = atRest): HandleDoc {
+export function makeHandle(
+  shape: ShapeData, id: number, name: string, vertices: Uint32Array, motion = atRest,
+): HandleDoc {
   return { id, name, vertices, center: centroid(shape.positions, vertices), motion };
 }
 
@@ -89,7 +94,9 @@ export function backAtRest(doc: Doc): Doc {
   const handles = doc.handles.filter((h) => !h.held)
     .map((h) => makeHandle(doc.opened, h.id, h.name, h.vertices.filter(known))).filter((h) => h.vertices.length > 0);
   const fixed = doc.fixed.filter(known);
-  return { ...doc, shape: doc.opened, done: [], fixed, handles, grab: freshGrab(handles, doc.options), sketch: undefined };
+  return {
+    ...doc, shape: doc.opened, done: [], fixed, handles, grab: freshGrab(handles, doc.options), sketch: undefined,
+  };
 }
 
 export function withMotion(doc: Doc, id: number, motion: Motion): Doc {
@@ -148,7 +155,9 @@ export function withRun(doc: Doc, { step, iterations, entry, done, converged }: 
   const { grab } = doc;
   const mine = iterations > 0 && step === doc.done.length;
   if (doc.sketch) return doc;
-  if (grab.entries.length === 0) return { ...doc, grab: { ...grab, solved: mine ? done : grab.solved, settled: converged } };
+  if (grab.entries.length === 0) {
+    return { ...doc, grab: { ...grab, solved: mine ? done : grab.solved, settled: converged } };
+  }
   if (!mine || entry < 0) return doc;
   const entries = grab.entries.map((e, i) => (i === entry ? { ...e, iterations: Math.max(1, done) } : e));
   return { ...doc, grab: { ...grab, entries } };
@@ -169,8 +178,12 @@ const region = (fixed: Uint32Array) => (fixed.length > 0 ? { fixed: [{ vertices:
 
 /** Only what differs from the options before: a drag may not name others. */
 function changedOptions(doc: Doc, before: Options, after: Options): object {
-  const [a, b] = [before, after].map((options) => scriptOptions(doc.method, options, doc.shape)) as [Record<string, unknown>, Record<string, unknown>];
-  return Object.fromEntries(Object.entries(b).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(a[key])));
+  const [a, b] = [before, after].map((options) => scriptOptions(doc.method, options, doc.shape)) as [
+    Record<string, unknown>, Record<string, unknown>,
+  ];
+  return Object.fromEntries(
+    Object.entries(b).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(a[key])),
+  );
 }
 
 type Remembered = { handles?: unknown; fixed?: unknown };
@@ -231,7 +244,8 @@ export function finishedStep(doc: Doc): DocumentStep | undefined {
   return asksForSomething(doc) ? grabStep(doc, entries, cut) : undefined;
 }
 
-const asksForSomething = (doc: Doc) => hasMoved(doc) || hasLoad(doc.method, doc.grab.options) || hasLoad(doc.method, doc.options);
+const asksForSomething = (doc: Doc) =>
+  hasMoved(doc) || hasLoad(doc.method, doc.grab.options) || hasLoad(doc.method, doc.options);
 
 /** Loose parts are put where they ride; `positions` are those after it. */
 export function placeStep(riders: readonly Rider[], positions: ArrayLike<number>): DocumentStep {
@@ -240,7 +254,9 @@ export function placeStep(riders: readonly Rider[], positions: ArrayLike<number>
   return { method: "place", parts: [{ name: "loose parts", select: { vertices }, targets }] };
 }
 
-const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({ format: "pliant-edit", version: 1, steps, seed: 1 });
+const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({
+  format: "pliant-edit", version: 1, steps, seed: 1,
+});
 const documents = new WeakMap<Doc, EditDocument>();
 
 /** What the living edit is to carry out; undefined: the shape is at rest. The same document gives the same object. */
@@ -257,7 +273,9 @@ export function liveDocument(doc: Doc): EditDocument | undefined {
 function liveStep(doc: Doc): DocumentStep | undefined {
   if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch) : chosenStep(doc.sketch);
   const { entries, cut = patience } = doc.grab;
-  return doc.handles.length > 0 || hasLoad(doc.method, doc.grab.options) ? grabStep(doc, open(entries), cut) : undefined;
+  return doc.handles.length > 0 || hasLoad(doc.method, doc.grab.options)
+    ? grabStep(doc, open(entries), cut)
+    : undefined;
 }
 
 /** A document that ends as the present stands: see `finishedStep`. */

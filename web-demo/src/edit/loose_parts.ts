@@ -15,7 +15,10 @@ export class LooseParts {
     this.free = [];
   }
 
-  /** Those that ride: not where the method carries space, nor those held or drawn on themselves. `labels`: of the limb under strokes. */
+  /**
+   * Those that ride: not where the method carries space, nor those held or drawn on themselves. `labels`: of the limb
+   * under strokes.
+   */
   find({ sketch, method, handles, fixed }: Doc, labels: ArrayLike<number> | undefined): void {
     if (carriesSpace(sketch ? sketch.finish : method) || this.riders.length === 0) {
       this.free = [];

@@ -15,7 +15,9 @@ import {
 import { LooseParts } from "./loose_parts.ts";
 import type { Motion } from "./motion.ts";
 import { RestDetector } from "./rest_detector.ts";
-import { fromHeld, isPosed, posed, type Pixel, type PoseChange, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
+import {
+  fromHeld, isPosed, posed, type Pixel, type PoseChange, type SketchCamera, type SketchDoc,
+} from "./sketch_doc.ts";
 
 /** A moment to go back to. The edit's is absent at rest and until it has told it. */
 export interface Moment {
@@ -125,13 +127,17 @@ export class Present {
     if (!doc.sketch || doc.sketch.reference !== old?.sketch?.reference) this.sketched = undefined;
     this.restDetector.reset();
     this.shown = doc.shape;
-    if (!doc.handles.some((h) => h.id === this.selected && !h.held)) this.selected = doc.handles.find((h) => !h.held)?.id;
+    if (!doc.handles.some((h) => h.id === this.selected && !h.held)) {
+      this.selected = doc.handles.find((h) => !h.held)?.id;
+    }
     if (!edit && doc.sketch && doc.sketch.finish !== "" && isPosed(doc.sketch)) await this.finishSketch();
     else this.look(await this.client.enter(edit ?? liveDocument(withChanges(doc)), {
       fromRest: !edit && !doc.sketch && doc.done.length === 0, whole: doc.sketch !== undefined,
     }));
     const { sketch } = this.doc;
-    if (sketch?.hold === "larger" && this.sketched) this.doc = { ...this.doc, sketch: fromHeld(sketch, this.sketched.held) };
+    if (sketch?.hold === "larger" && this.sketched) {
+      this.doc = { ...this.doc, sketch: fromHeld(sketch, this.sketched.held) };
+    }
     this.events.change();
     this.events.frame();
     if (!doc.sketch) this.client.wake();
@@ -142,7 +148,9 @@ export class Present {
     this.report = { ...report, vertices: vertexCount(shape), triangles: shape.triangles.length / 3 };
     this.joined = undefined;
     // Loose parts that ride are few; a soup or a scan in one piece need not be looked through.
-    if (report.components > 1 && report.components <= 1 + mostRiders) this.looseParts.take(shape, (this.joined = topologyOf(shape)));
+    if (report.components > 1 && report.components <= 1 + mostRiders) {
+      this.looseParts.take(shape, (this.joined = topologyOf(shape)));
+    }
     else this.looseParts.take(shape, undefined);
     if (!first && this.meter) return;
     const closed = opened.triangles.length > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;

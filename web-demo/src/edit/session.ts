@@ -6,7 +6,9 @@ import { backAtRest, freshGrab, makeHandle, startingDoc, type Doc } from "./docu
 import { History } from "./history.ts";
 import { bestMotion, type Motion } from "./motion.ts";
 import { Present, type Moment, type PresentEvents } from "./present.ts";
-import { newSketch, posed, seenAgain, type Pixel, type PoseChange, type SketchCamera, type SketchDoc } from "./sketch_doc.ts";
+import {
+  newSketch, posed, seenAgain, type Pixel, type PoseChange, type SketchCamera, type SketchDoc,
+} from "./sketch_doc.ts";
 import { freshId, heldUnmoved, unmovedIn, withoutHeld } from "./unmoved.ts";
 import { connect } from "../solver/pliant.ts";
 
@@ -17,7 +19,9 @@ export class Session {
   private work: Promise<unknown> = Promise.resolve();
   dragging = false;
 
-  private constructor(readonly present: Present, private readonly history: History<Moment>, private readonly events: SessionEvents) {}
+  private constructor(
+    readonly present: Present, private readonly history: History<Moment>, private readonly events: SessionEvents,
+  ) {}
 
   static async start(shape: ShapeData, events: SessionEvents): Promise<Session> {
     let session: Session | undefined;
@@ -47,7 +51,9 @@ export class Session {
     const changed = (before: Options): Options => ({ ...before, [key]: value });
     if (!methodOf(method).live || sketch) {
       // On what the calls before this one leave, which may be another method.
-      return this.replace((doc) => (doc.method === method ? { ...doc, options: changed(doc.options) } : doc), `option ${key}`);
+      return this.replace(
+        (doc) => (doc.method === method ? { ...doc, options: changed(doc.options) } : doc), `option ${key}`,
+      );
     }
     this.present.setOptions(changed(options));
     return this.exclusive(() => this.commit(this.present.doc, `option ${key}`));
@@ -93,7 +99,9 @@ export class Session {
   }
 
   /** Chooses the limb under a pixel and poses it in one go: for a stroke that leaves the shape at once. */
-  pullLimb(camera: SketchCamera, pixel: Pixel, mirror: SketchDoc["mirror"], targetOf: (reference: readonly Pixel[]) => Pixel[]): Promise<boolean> {
+  pullLimb(
+    camera: SketchCamera, pixel: Pixel, mirror: SketchDoc["mirror"], targetOf: (reference: readonly Pixel[]) => Pixel[],
+  ): Promise<boolean> {
     return this.move(async () => {
       const doc = await this.present.finished();
       const reference = await this.present.limbStroke(doc, camera, pixel);
@@ -106,7 +114,9 @@ export class Session {
   lookAgain(camera: SketchCamera, reference: readonly Pixel[], label: string): Promise<boolean> {
     return this.move(async () => {
       const { doc, sketched } = this.present;
-      return { ...(await this.present.finished()), sketch: seenAgain(doc.sketch!, sketched!.labels, camera, reference) };
+      return {
+        ...(await this.present.finished()), sketch: seenAgain(doc.sketch!, sketched!.labels, camera, reference),
+      };
     }, label);
   }
 
@@ -131,7 +141,10 @@ export class Session {
 
   // -- What changes the constraints ---------------------------------------------------------------
 
-  /** A handle on some vertices where they are now; those of other handles are left to them. Its id, at once; undefined: none are left. */
+  /**
+   * A handle on some vertices where they are now; those of other handles are left to them. Its id, at once; undefined:
+   * none are left.
+   */
   addHandle(vertices: Uint32Array): number | undefined {
     const { doc, positions } = this.present;
     if (doc.sketch) return undefined;
@@ -158,7 +171,9 @@ export class Session {
     return unmovedIn(this.present.doc);
   }
 
-  /** Replaces what does not move; vertices of handles stay with them. What has left its rest is held where it is now. */
+  /**
+   * Replaces what does not move; vertices of handles stay with them. What has left its rest is held where it is now.
+   */
   setUnmoved(vertices: Iterable<number>): Promise<boolean> {
     const { doc, positions, report } = this.present;
     if (doc.sketch) return Promise.resolve(false);

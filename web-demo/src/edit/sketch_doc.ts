@@ -57,13 +57,15 @@ export const restKnots: Readonly<Record<Control, Knots>> = {
 
 export function newSketch(camera: SketchCamera, reference: readonly Pixel[], like?: SketchDoc): SketchDoc {
   return {
-    camera, reference, hold: "larger", partitions: [], mirror: like?.mirror, target: undefined, unfinished: false, twist: 0, knots: restKnots,
-    smooth: like?.smooth ?? true, refine: false, morph: 1, finish: like?.finish ?? "",
+    camera, reference, hold: "larger", partitions: [], mirror: like?.mirror, target: undefined, unfinished: false,
+    twist: 0, knots: restKnots, smooth: like?.smooth ?? true, refine: false, morph: 1, finish: like?.finish ?? "",
   };
 }
 
 /** A limb at rest seen through another camera, by the curve it lies on; `labels`: its region. */
-export function seenAgain(old: SketchDoc, labels: ArrayLike<number>, camera: SketchCamera, reference: readonly Pixel[]): SketchDoc {
+export function seenAgain(
+  old: SketchDoc, labels: ArrayLike<number>, camera: SketchCamera, reference: readonly Pixel[],
+): SketchDoc {
   const fresh: SketchDoc = { ...newSketch(camera, reference, old), hold: "start" };
   if (old.mirror || (isPosed(old) && old.refine)) return fresh; // the region is chosen anew
   if (isPosed(old)) return { ...fresh, region: "previous", labels };
@@ -77,14 +79,21 @@ const reversed = <T>(line: readonly T[]): T[] => line.toReversed();
 export const fromHeld = (sketch: SketchDoc, held: "start" | "end"): SketchDoc =>
   ({ ...sketch, hold: "start", reference: held === "end" ? reversed(sketch.reference) : sketch.reference });
 
-/** The other end held: the same shape but for where it stands. The region is chosen anew, or by the other stroke reversed. */
+/**
+ * The other end held: the same shape but for where it stands. The region is chosen anew, or by the other stroke
+ * reversed.
+ */
 export function flipped({ reference, target, region, knots }: SketchDoc): Partial<SketchDoc> {
   const across = (control: Control, value: (there: number) => number) => reversed(knots[control]).map(value);
   const turned = knots.twistSpeed.at(-1)!;
   return {
     hold: "start", reference: reversed(reference), target: target && reversed(target), labels: undefined,
     region: typeof region === "object" ? { ...region, reference: reversed(region.reference) } : undefined,
-    knots: { scale: across("scale", (x) => x), turning: across("turning", (x) => x), twistSpeed: across("twistSpeed", (x) => turned - x) },
+    knots: {
+      scale: across("scale", (x) => x),
+      turning: across("turning", (x) => x),
+      twistSpeed: across("twistSpeed", (x) => turned - x),
+    },
   };
 }
 

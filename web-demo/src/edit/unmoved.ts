@@ -20,7 +20,10 @@ export function withoutHeld(handles: readonly HandleDoc[], vertices: ReadonlySet
   });
 }
 
-/** The constraints when these vertices are not to move: what is new and farther from rest than `tolerance` is held where it is. */
+/**
+ * The constraints when these vertices are not to move: what is new and farther from rest than `tolerance` is held where
+ * it is.
+ */
 export function heldUnmoved(
   doc: Doc, vertices: Iterable<number>, positions: Float32Array, tolerance: number,
 ): Pick<Doc, "fixed" | "handles"> {

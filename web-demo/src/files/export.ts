@@ -23,11 +23,21 @@ export async function download(present: Present, kind: ExportKind): Promise<void
 }
 
 /** What is to be written: the visitor's file with its vertices elsewhere, or the shape as the page knows it. */
-async function asFile({ file, triangles, colors, picture }: ShapeData, positions: Float32Array): Promise<WritableShape> {
+async function asFile(
+  { file, triangles, colors, picture }: ShapeData, positions: Float32Array,
+): Promise<WritableShape> {
   if (file) return { ...file, positions };
   const texture = picture && (await png(picture.image));
-  const texcoords = picture && Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
-  return { positions, triangles, ...(colors ? { colors } : {}), ...(texture ? { texture } : {}), ...(texcoords ? { texcoords } : {}) };
+  const texcoords =
+    picture &&
+    Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
+  return {
+    positions,
+    triangles,
+    ...(colors ? { colors } : {}),
+    ...(texture ? { texture } : {}),
+    ...(texcoords ? { texcoords } : {}),
+  };
 }
 
 async function png(image: TexImageSource): Promise<Blob> {

@@ -12,10 +12,13 @@ const pictures = ["png", "jpg", "jpeg", "webp"];
 export async function loadFile(file: File, options: ReadOptions): Promise<ShapeData> {
   const ending = file.name.toLowerCase().split(".").pop() ?? "";
   if (![...shapes, ...pictures].includes(ending)) {
-    throw new Error(`${file.name}: this kind of file is not known here. Known are ${[...shapes, ...pictures].map((e) => `.${e}`).join(", ")}.`);
+    const known = [...shapes, ...pictures].map((name) => `.${name}`).join(", ");
+    throw new Error(`${file.name}: this kind of file is not known here. Known are ${known}.`);
   }
   try {
-    const loaded = pictures.includes(ending) ? await readPicture(file) : await asShape(await (await connect()).read(file, file.name, options));
+    const loaded = pictures.includes(ending)
+      ? await readPicture(file)
+      : await asShape(await (await connect()).read(file, file.name, options));
     return { id: "file", name: file.name, ...loaded };
   } catch (error) {
     if (options.signal?.aborted) throw new Error("", { cause: error });

@@ -18,7 +18,9 @@ export async function readPicture(file: Blob): Promise<LoadedShape> {
     if (!ids.has(key)) {
       ids.set(key, ids.size);
       const [u, v] = [column / columns, 1 - row / rows];
-      positions.push(((u - 0.5) * 2 * image.width) / (cells * step), ((v - 0.5) * 2 * image.height) / (cells * step), 0);
+      positions.push(
+        ((u - 0.5) * 2 * image.width) / (cells * step), ((v - 0.5) * 2 * image.height) / (cells * step), 0,
+      );
       uv.push(u, v);
     }
     return ids.get(key)!;

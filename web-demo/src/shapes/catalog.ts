@@ -43,7 +43,12 @@ async function bunny(): Promise<ShapeData> {
 /** The bunny once more, of a material that its own weight bends. */
 async function rubber(): Promise<ShapeData> {
   const shape = await bunny();
-  return { ...shape, id: "rubber", name: "Rubber", start: { ...shape.start!, method: "edge-material", options: { stretch: 20, bend: 0.3, gravity: 0.3 } } };
+  return {
+    ...shape,
+    id: "rubber",
+    name: "Rubber",
+    start: { ...shape.start!, method: "edge-material", options: { stretch: 20, bend: 0.3, gravity: 0.3 } },
+  };
 }
 
 export const catalog: CatalogEntry[] = [

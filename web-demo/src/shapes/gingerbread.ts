@@ -90,7 +90,9 @@ export function gingerbread(): ShapeData {
   for (let v = 0; v < count; v++) {
     const [x, y] = [points[2 * v]!, points[2 * v + 1]!];
     positions.set([x, y, 0], 3 * v);
-    uv.set([(x - frame.min[0]) / (frame.max[0] - frame.min[0]), (y - frame.min[1]) / (frame.max[1] - frame.min[1])], 2 * v);
+    uv.set(
+      [(x - frame.min[0]) / (frame.max[0] - frame.min[0]), (y - frame.min[1]) / (frame.max[1] - frame.min[1])], 2 * v,
+    );
   }
   return {
     id: "gingerbread", name: "Gingerbread (2D)", positions, triangles, dimension: 2,

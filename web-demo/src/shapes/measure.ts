@@ -15,7 +15,9 @@ export interface Measures {
 const breath = 250;
 
 const flat = (positions: ArrayLike<number>, dimension: 2 | 3) =>
-  dimension === 3 ? positions : Float64Array.from({ length: (2 * positions.length) / 3 }, (_, i) => positions[3 * (i >> 1) + (i & 1)]!);
+  dimension === 3
+    ? positions
+    : Float64Array.from({ length: (2 * positions.length) / 3 }, (_, i) => positions[3 * (i >> 1) + (i & 1)]!);
 
 /** Measures deformed positions against the rest. */
 export class Meter {
@@ -64,7 +66,9 @@ export class Meter {
     const pliant = await connect();
     const { exact, positions: rest, triangles, dimension } = this.rest;
     this.shape ??= pliant.shape({ positions: flat(exact ?? rest, dimension), triangles, dimension });
-    const { stretch, volume } = await pliant.measure(await this.shape, flat(positions, dimension), { intersections: false });
+    const { stretch, volume } = await pliant.measure(await this.shape, flat(positions, dimension), {
+      intersections: false,
+    });
     return { stretch: stretch.mean, ...(volume === null ? {} : { volume }) };
   }
 }

@@ -10,7 +10,9 @@ function carried<T extends Uint8Array | Float32Array>(values: T, width: number, 
   const out = new (values.constructor as new (length: number) => T)(values.length + (width * parents.length) / 2);
   out.set(values);
   for (let i = 0, at = values.length; i < parents.length; i += 2) {
-    for (let k = 0; k < width; k++, at++) out[at] = (out[parents[i]! * width + k]! + out[parents[i + 1]! * width + k]!) / 2;
+    for (let k = 0; k < width; k++, at++) {
+      out[at] = (out[parents[i]! * width + k]! + out[parents[i + 1]! * width + k]!) / 2;
+    }
   }
   return out;
 }

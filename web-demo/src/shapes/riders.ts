@@ -47,15 +47,24 @@ export function ridersOf(shape: ShapeData, topology: Topology): Rider[] {
   const { positions } = shape;
   const { diagonal } = boundingBox(positions);
   const parts = partsOf(topology);
-  const size = (part: Uint32Array) => boundingBox(Float32Array.from(part, (v) => positions[3 * v]!)
-    .reduce<number[]>((all, x, i) => (all.push(x, positions[3 * part[i]! + 1]!, positions[3 * part[i]! + 2]!), all), [])).diagonal;
-  const small = parts.filter((part, i) => i > 0 && part.length < parts[0]!.length / 5 && size(part) < largest * diagonal);
+  const size = (part: Uint32Array) =>
+    boundingBox(
+      Float32Array.from(part, (v) => positions[3 * v]!).reduce<number[]>(
+        (all, x, i) => (all.push(x, positions[3 * part[i]! + 1]!, positions[3 * part[i]! + 2]!), all), [],
+      ),
+    ).diagonal;
+  const small = parts.filter(
+    (part, i) => i > 0 && part.length < parts[0]!.length / 5 && size(part) < largest * diagonal,
+  );
   if (small.length === 0 || small.length > mostRiders) return [];
   const body = parts.filter((part) => !small.includes(part)).flatMap((part) => [...part]);
   const nearest = (v: number) => {
     let [best, least] = [0, Infinity];
     for (const b of body) {
-      const d = (positions[3 * b]! - positions[3 * v]!) ** 2 + (positions[3 * b + 1]! - positions[3 * v + 1]!) ** 2 + (positions[3 * b + 2]! - positions[3 * v + 2]!) ** 2;
+      const d =
+        (positions[3 * b]! - positions[3 * v]!) ** 2 +
+        (positions[3 * b + 1]! - positions[3 * v + 1]!) ** 2 +
+        (positions[3 * b + 2]! - positions[3 * v + 2]!) ** 2;
       if (d < least) [best, least] = [b, d];
     }
     return best;
@@ -63,7 +72,9 @@ export function ridersOf(shape: ShapeData, topology: Topology): Rider[] {
   return small.map((vertices) => {
     const every = Math.ceil(vertices.length / feelers);
     const anchors = new Set(vertices.filter((_, i) => i % every === 0).map(nearest));
-    for (let ring = 0; ring < 2; ring++) for (const v of [...anchors]) for (const w of beside(topology, v)) anchors.add(w);
+    for (let ring = 0; ring < 2; ring++) {
+      for (const v of [...anchors]) for (const w of beside(topology, v)) anchors.add(w);
+    }
     return { vertices, anchors: Uint32Array.from(anchors).sort() };
   });
 }
@@ -82,13 +93,17 @@ export function carry(riders: readonly Rider[], rest: Floats, positions: Floats,
       return false;
     }
     const { translate, rotation } = bestMotion(rest, positions, anchors);
-    place(vertices, new Vector3(...centroid(rest, anchors)), new Vector3(...translate), quaternionOf(rotation), rest, positions, normals);
+    place(
+      vertices, new Vector3(...centroid(rest, anchors)), new Vector3(...translate), quaternionOf(rotation), rest,
+      positions, normals,
+    );
     return true;
   });
 }
 
 function place(
-  vertices: Uint32Array, center: Vector3, shift: Vector3, turn: Quaternion, rest: Floats, positions: Floats, normals?: Float32Array,
+  vertices: Uint32Array, center: Vector3, shift: Vector3, turn: Quaternion, rest: Floats, positions: Floats,
+  normals?: Float32Array,
 ): void {
   const p = new Vector3();
   for (const v of vertices) {

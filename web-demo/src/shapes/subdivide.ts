@@ -24,7 +24,9 @@ function edgesOf(triangles: Uint32Array, points: number): Map<number, Edge> {
 }
 
 /** The masks applied to one kind of value, 3 a point. */
-function refine(values: ArrayLike<number>, points: number, edges: Map<number, Edge>, out: Float32Array | Uint8Array): void {
+function refine(
+  values: ArrayLike<number>, points: number, edges: Map<number, Edge>, out: Float32Array | Uint8Array,
+): void {
   const ring = new Float64Array(3 * points);
   const valence = new Uint32Array(points);
   for (const { ends: [a, b], across, id } of edges.values()) {

@@ -24,7 +24,10 @@ function weld(positions: Float32Array): { pointOf: Uint32Array; points: number }
   for (let v = 0; v < pointOf.length; v++) {
     const [x, y, z] = [positions[3 * v]! + 0, positions[3 * v + 1]! + 0, positions[3 * v + 2]! + 0];
     let slot = hashOf(x, y, z) & (size - 1);
-    for (let other = table[slot]!; other >= 0 && !(positions[3 * other] === x && positions[3 * other + 1] === y && positions[3 * other + 2] === z);) {
+    for (
+      let other = table[slot]!;
+      other >= 0 && !(positions[3 * other] === x && positions[3 * other + 1] === y && positions[3 * other + 2] === z);
+    ) {
       slot = (slot + 1) & (size - 1);
       other = table[slot]!;
     }
@@ -67,7 +70,9 @@ export function topologyOf(shape: ShapeData): Topology {
   const corner = (i: number) => pointOf[shape.triangles[i]!]!;
   const around = (i: number, step: number) => corner(3 * Math.floor(i / 3) + ((i + step) % 3));
   const corners = shape.triangles.length;
-  const beside = group(points, 2 * corners, (i) => corner(i % corners), (i) => around(i % corners, i < corners ? 1 : 2));
+  const beside = group(
+    points, 2 * corners, (i) => corner(i % corners), (i) => around(i % corners, i < corners ? 1 : 2),
+  );
   return {
     pointOf, points, vertexStart: own.start, vertices: own.values,
     nextStart: beside.start, next: beside.values, scattered: corners < points,
@@ -82,7 +87,9 @@ export function patchAround(
   topology: Topology, positions: Float32Array, seed: number, center: ArrayLike<number>, radius: number,
 ): Uint32Array {
   const inside = (v: number) =>
-    Math.hypot(positions[3 * v]! - center[0]!, positions[3 * v + 1]! - center[1]!, positions[3 * v + 2]! - center[2]!) <= radius;
+    Math.hypot(
+      positions[3 * v]! - center[0]!, positions[3 * v + 1]! - center[1]!, positions[3 * v + 2]! - center[2]!,
+    ) <= radius;
   const chosen = new Set([topology.pointOf[seed]!]);
   if (topology.scattered) {
     for (let v = 0; v < topology.pointOf.length; v++) if (inside(v)) chosen.add(topology.pointOf[v]!);
@@ -100,6 +107,8 @@ export function patchAround(
 /** All the vertices at the given points, ascending. */
 function verticesOf(topology: Topology, points: Iterable<number>): Uint32Array {
   const list: number[] = [];
-  for (const p of points) list.push(...topology.vertices.subarray(topology.vertexStart[p]!, topology.vertexStart[p + 1]!));
+  for (const p of points) {
+    list.push(...topology.vertices.subarray(topology.vertexStart[p]!, topology.vertexStart[p + 1]!));
+  }
   return Uint32Array.from(list).sort();
 }

@@ -46,7 +46,9 @@ class Cloud {
       const n: Vec = [s * Math.cos(angle), z, s * Math.sin(angle)];
       const p: Vec = [center[0] + depth * n[0], center[1] + 0.86 * depth * n[1], center[2] + depth * n[2]];
       const autumn = this.next() < 0.08;
-      this.push(p, autumn ? [236, 170, 74] : [116, 168, 82], 0.78 + 0.24 * n[1] + 0.16 * n[0] + 0.2 * (this.next() - 0.5));
+      this.push(
+        p, autumn ? [236, 170, 74] : [116, 168, 82], 0.78 + 0.24 * n[1] + 0.16 * n[0] + 0.2 * (this.next() - 0.5),
+      );
     }
   }
 }

@@ -35,7 +35,9 @@ const atRest: EditMoment = { format: "pliant-moment", version: 1, document: unde
 
 /** Points of the plane, two numbers each, with z = 0. */
 const inSpace = (flat: Float32Array) =>
-  Float32Array.from({ length: (flat.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!));
+  Float32Array.from({ length: (flat.length / 2) * 3 }, (_, i) =>
+    i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!,
+  );
 
 const nextFrame = () => new Promise<void>((resolve) => requestAnimationFrame(() => resolve()));
 
@@ -84,7 +86,10 @@ export class EditClient {
     [this.data, this.shape, this.edit] = [data, shape, edit];
   }
 
-  /** A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
+  /**
+   * A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to
+   * its end.
+   */
   enter(
     target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean },
   ): Promise<Picture> {
@@ -110,7 +115,9 @@ export class EditClient {
   exact(document: EditDocument, vertices: number): Promise<Float64Array> {
     return this.exclusive(async () => {
       const { edit } = this;
-      const [, , exact] = await Promise.all([edit.apply(document), edit.run(), edit.positions(new Float64Array(3 * vertices))]);
+      const [, , exact] = await Promise.all([
+        edit.apply(document), edit.run(), edit.positions(new Float64Array(3 * vertices)),
+      ]);
       return exact;
     });
   }

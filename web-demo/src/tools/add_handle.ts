@@ -43,6 +43,8 @@ export class AddHandle implements Tool {
       session.select(there.id);
       return there.id;
     }
-    return session.addHandle(patchAround(present.topology, present.positions, hit.vertex, hit.point.toArray(), this.stage.radius()));
+    return session.addHandle(
+      patchAround(present.topology, present.positions, hit.vertex, hit.point.toArray(), this.stage.radius()),
+    );
   }
 }

@@ -10,7 +10,8 @@ export type DragMode = "shift" | "turn" | "tilt";
 const tiltSpeed = 0.011;
 
 /** Where a handle is now. */
-export const placeOf = ({ center, motion }: HandleDoc): Vector3 => new Vector3(...center).add(new Vector3(...motion.translate));
+export const placeOf = ({ center, motion }: HandleDoc): Vector3 =>
+  new Vector3(...center).add(new Vector3(...motion.translate));
 
 export class HandleDrag {
   private last: Pointer;

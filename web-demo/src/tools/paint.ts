@@ -16,7 +16,9 @@ export class Paint implements Tool {
     this.id = adds ? "fix" : "free";
     this.label = adds ? "Fix" : "Free";
     this.icon = adds ? "fix" : "free";
-    this.hint = adds ? "Paint what must not move: it stays where it is." : "Wipe over blue parts to let them move again.";
+    this.hint = adds
+      ? "Paint what must not move: it stays where it is."
+      : "Wipe over blue parts to let them move again.";
   }
 
   down(at: Pointer): boolean {

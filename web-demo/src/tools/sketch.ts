@@ -7,7 +7,11 @@ import type { Pointer, Stage, Tool } from "./tool.ts";
 export const strokeModes = ["bend", "twist", "scale", "cut"] as const;
 export type StrokeMode = (typeof strokeModes)[number];
 
-type Gesture = { kind: "reference" } | { kind: "bend" | "cut" } | { kind: "twist"; from: number; axis: Pixel } | { kind: "scale"; s: number; out: Pixel };
+type Gesture =
+  | { kind: "reference" }
+  | { kind: "bend" | "cut" }
+  | { kind: "twist"; from: number; axis: Pixel }
+  | { kind: "scale"; s: number; out: Pixel };
 
 /** Pixels: how near the shape a stroke has to begin, and how long it has to be. */
 const reach = 26;
@@ -88,7 +92,9 @@ export class SketchTool implements Tool {
     };
     this.choosing = true;
     this.isReady = false;
-    const done = this.leavesAtOnce() ? session.pullLimb(camera, from, this.mirror, target) : session.chooseLimb(camera, pixels, this.mirror);
+    const done = this.leavesAtOnce()
+      ? session.pullLimb(camera, from, this.mirror, target)
+      : session.chooseLimb(camera, pixels, this.mirror);
     const ready = (this.ready = done.then((went) => {
       if (this.ready === ready) this.choosing = !(this.isReady = true);
       return went;
@@ -161,18 +167,29 @@ export class SketchTool implements Tool {
     if (JSON.stringify(camera) === JSON.stringify(sketch.camera)) return;
     this.isReady = false;
     if (this.gesture!.kind === "twist") this.gesture = { ...this.gesture!, from: 0 };
-    this.ready = session.lookAgain(camera, viewport.curveInPicture(sketched.target), `stroke ${this.strokes}`).then((went) => {
-      this.isReady = true;
-      return went;
-    });
+    this.ready = session
+      .lookAgain(camera, viewport.curveInPicture(sketched.target), `stroke ${this.strokes}`)
+      .then((went) => {
+        this.isReady = true;
+        return went;
+      });
   }
 
   // -- What a stroke says -------------------------------------------------------------------------
 
-  /** What it finds in the sketch it takes from there when its turn comes: the limb may be seen from elsewhere by then. */
+  /**
+   * What it finds in the sketch it takes from there when its turn comes: the limb may be seen from elsewhere by then.
+   */
   private change(drawing: boolean): PoseChange | undefined {
     const { gesture } = this;
-    if (!gesture || gesture.kind === "reference" || !(this.choosing || this.stage.present.doc.sketch) || lengthOf(this.ink) < shortest) return undefined;
+    if (
+      !gesture ||
+      gesture.kind === "reference" ||
+      !(this.choosing || this.stage.present.doc.sketch) ||
+      lengthOf(this.ink) < shortest
+    ) {
+      return undefined;
+    }
     const [from, to] = [this.ink[0]!, this.ink.at(-1)!];
     const along = ([x, y]: Pixel) => (to.x - from.x) * x + (to.y - from.y) * y;
     switch (gesture.kind) {
@@ -181,7 +198,8 @@ export class SketchTool implements Tool {
         if (!this.keepsLength) return { target, unfinished: drawing, morph: 1 };
         return ({ reference }) => ({ target: fitted(target, reference), morph: 1 });
       }
-      case "twist": return { twist: Math.round(10 * (gesture.from + degreesPerPixel * along(gesture.axis))) / 10, morph: 1 };
+      case "twist":
+        return { twist: Math.round(10 * (gesture.from + degreesPerPixel * along(gesture.axis))) / 10, morph: 1 };
       case "scale": {
         const factor = Math.min(3, Math.max(0.3, 2 ** (along(gesture.out) / pixelsPerDoubling)));
         return ({ knots }) => ({ knots: { ...knots, scale: scaledFrom(gesture.s, factor) }, morph: 1 });

@@ -41,7 +41,9 @@ export interface Tool {
   readonly size?: { min: number; max: number; start: number };
   /** True: the tool has the pointer until it is up. False: the camera has it. */
   down(at: Pointer): boolean;
-  /** `samples`: every place since the last call, where the device tells more than the page asks for; the last is `at`. */
+  /**
+   * `samples`: every place since the last call, where the device tells more than the page asks for; the last is `at`.
+   */
   move?(at: Pointer, samples: readonly Pointer[]): void;
   up?(): void;
   /** The gesture was none: a palm, or the first of two fingers. */

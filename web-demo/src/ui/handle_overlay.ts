@@ -96,7 +96,9 @@ export class HandleOverlay {
   }
 
   private add(id: number): HTMLButtonElement {
-    const button = make("button", { class: "handle", "aria-keyshortcuts": "ArrowUp ArrowDown ArrowLeft ArrowRight [ ] Delete" });
+    const button = make("button", {
+      class: "handle", "aria-keyshortcuts": "ArrowUp ArrowDown ArrowLeft ArrowRight [ ] Delete",
+    });
     this.follow(button, () => id, (event) => (event.shiftKey ? "tilt" : "shift"));
     button.addEventListener("focus", () => this.stage.session.select(id));
     button.addEventListener("keydown", (event) => this.key(event, id));
@@ -108,7 +110,8 @@ export class HandleOverlay {
   /** Makes an element drag a handle. */
   private follow(element: Element, id: () => number | undefined, mode: (event: PointerEvent) => DragMode): void {
     let drag: HandleDrag | undefined;
-    const on = (type: string, listener: (event: PointerEvent) => void) => element.addEventListener(type, listener as EventListener);
+    const on = (type: string, listener: (event: PointerEvent) => void) =>
+      element.addEventListener(type, listener as EventListener);
     on("pointerdown", (event) => {
       const handle = id();
       if (event.button !== 0 || drag || handle === undefined) return;
@@ -144,7 +147,8 @@ export class HandleOverlay {
   private moved(handle: HandleDoc, event: KeyboardEvent): Motion | undefined {
     const { viewport } = this.stage;
     const times = event.shiftKey ? 4 : 1;
-    const shift = (dx: number, dy: number) => translated(handle.motion, viewport.shiftAt(placeOf(handle), dx * nudge * times, dy * nudge * times).toArray());
+    const shift = (dx: number, dy: number) =>
+      translated(handle.motion, viewport.shiftAt(placeOf(handle), dx * nudge * times, dy * nudge * times).toArray());
     const { forward } = viewport.axes();
     const push = (sign: number) => {
       const step = viewport.shiftAt(placeOf(handle), nudge * times, 0).length();

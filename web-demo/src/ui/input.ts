@@ -7,7 +7,8 @@ const palm = 48;
 /** Pixels that a finger may have moved before a second one makes it a gesture of the camera. */
 const fingerSlack = 24;
 
-const isPalm = (event: PointerEvent): boolean => event.pointerType === "touch" && Math.max(event.width, event.height) > palm;
+const isPalm = (event: PointerEvent): boolean =>
+  event.pointerType === "touch" && Math.max(event.width, event.height) > palm;
 
 export class Input {
   private holder: number | undefined; // the pointer the tool has
@@ -22,7 +23,9 @@ export class Input {
     // Before the camera's own listener, on the way down.
     byId("stage").addEventListener("pointerdown", (event) => this.down(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event));
-    for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, (event) => this.up(event));
+    for (const type of ["pointerup", "pointercancel"] as const) {
+      canvas.addEventListener(type, (event) => this.up(event));
+    }
     canvas.addEventListener("pointerleave", () => this.tool().hover?.(undefined));
     canvas.addEventListener("keydown", (event) => this.key(event));
     canvas.addEventListener("focus", () => this.useKeys(canvas.matches(":focus-visible")));
@@ -67,7 +70,9 @@ export class Input {
 
   /** A second finger: both are the camera's, unless the first has drawn already. */
   private second(event: PointerEvent): void {
-    if (event.pointerType !== "touch" || this.first?.pointerType !== "touch" || this.travelled > fingerSlack) return event.stopPropagation();
+    if (event.pointerType !== "touch" || this.first?.pointerType !== "touch" || this.travelled > fingerSlack) {
+      return event.stopPropagation();
+    }
     const first = new PointerEvent("pointerdown", this.first);
     this.letGo();
     this.replayed.add(first);

@@ -1,6 +1,8 @@
 // What can be set on the limb under strokes: what a stroke does, morph, smoothing, the spline controls.
 import type { Session } from "../edit/session.ts";
-import { controls, flipped, restKnots, type Control, type Knots, type PoseChange, type SketchDoc } from "../edit/sketch_doc.ts";
+import {
+  controls, flipped, restKnots, type Control, type Knots, type PoseChange, type SketchDoc,
+} from "../edit/sketch_doc.ts";
 import { methods } from "../methods.ts";
 import { boundingBox } from "../shapes/shape.ts";
 import { strokeModes, type SketchTool, type StrokeMode } from "../tools/sketch.ts";
@@ -28,7 +30,9 @@ export class LimbPanel {
   /** Poses that were asked for here and are not carried out yet. */
   private underWay = 0;
 
-  constructor(private readonly session: Session, private readonly tool: SketchTool, private readonly changed: () => void) {
+  constructor(
+    private readonly session: Session, private readonly tool: SketchTool, private readonly changed: () => void,
+  ) {
     this.modes = strokeModes.map((mode) => this.modeButton(mode));
     byId("stroke-modes").append(...this.modes);
     byId("limb-done").addEventListener("click", () => void session.leaveLimb());
@@ -42,7 +46,10 @@ export class LimbPanel {
     this.check("refine", (refine) => this.pose({ refine }));
     this.check("keep-length", (on) => (tool.keepsLength = on));
     this.check("mirror", (on) => this.setMirror(on));
-    this.finish.append(make("option", { value: "" }, "Nothing"), ...methods.map(({ id, short, help }) => make("option", { value: id, title: help }, short)));
+    this.finish.append(
+      make("option", { value: "" }, "Nothing"),
+      ...methods.map(({ id, short, help }) => make("option", { value: id, title: help }, short)),
+    );
     this.finish.addEventListener("change", () => this.pose({ finish: this.finish.value }));
     for (const control of controls) this.addSpline(control);
   }
@@ -103,7 +110,9 @@ export class LimbPanel {
 
   private modeButton(mode: StrokeMode): HTMLButtonElement {
     const [label, help] = modeNames[mode];
-    const button = make("button", { role: "radio", id: `stroke-${mode}`, title: help, "aria-checked": String(mode === "bend") }, label);
+    const button = make(
+      "button", { role: "radio", id: `stroke-${mode}`, title: help, "aria-checked": String(mode === "bend") }, label,
+    );
     button.addEventListener("click", () => this.setMode(mode));
     button.addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
@@ -128,7 +137,9 @@ export class LimbPanel {
 
   private setMirror(on: boolean): void {
     const { opened } = this.session.present.doc;
-    this.tool.mirror = on ? { normal: [1, 0, 0], offset: opened.mirrorAt ?? boundingBox(opened.positions).center[0] } : undefined;
+    this.tool.mirror = on
+      ? { normal: [1, 0, 0], offset: opened.mirrorAt ?? boundingBox(opened.positions).center[0] }
+      : undefined;
     this.pose({ mirror: this.tool.mirror });
   }
 

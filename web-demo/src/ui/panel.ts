@@ -1,7 +1,9 @@
 // The settings beside the view: shape, method and its options, what is shown, export.
 import type { Session } from "../edit/session.ts";
 import { download, type ExportKind } from "../files/export.ts";
-import { isPainting, methodOf, methods, type MethodOption, type Options, type OptionValue, type Strokes } from "../methods.ts";
+import {
+  isPainting, methodOf, methods, type MethodOption, type Options, type OptionValue, type Strokes,
+} from "../methods.ts";
 import { catalog } from "../shapes/catalog.ts";
 import { byId, make } from "./dom.ts";
 
@@ -36,7 +38,8 @@ export class Panel {
       file.value = "";
     });
     const pace = byId<HTMLInputElement>("pace");
-    const showPace = () => ((pace.previousElementSibling as HTMLOutputElement).value = pace.value === "0" ? "auto" : pace.value);
+    const showPace = () =>
+      ((pace.previousElementSibling as HTMLOutputElement).value = pace.value === "0" ? "auto" : pace.value);
     showPace();
     pace.addEventListener("input", () => {
       showPace();
@@ -79,7 +82,9 @@ export class Panel {
     for (const radio of this.shapes.querySelectorAll("input")) {
       radio.checked = known && radio.value === doc.shape.id;
     }
-    byId("shapes").querySelector(".file span")!.textContent = known ? "Open a file…" : `${doc.shape.name} · open another…`;
+    byId("shapes").querySelector(".file span")!.textContent = known
+      ? "Open a file…"
+      : `${doc.shape.name} · open another…`;
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
     byId("graph").parentElement!.hidden = !methodOf(doc.method).draws.includes("graph");
@@ -99,16 +104,29 @@ export class Panel {
   private makeOptions(method: string): void {
     this.shownMethod = method;
     this.controls = [];
-    this.options.replaceChildren(...methodOf(method).options.map((option) =>
-      "min" in option ? this.slider(option, methodOf(method).live) : "choices" in option ? this.select(option) : this.toggle(option)), this.clear);
+    this.options.replaceChildren(
+      ...methodOf(method).options.map((option) =>
+        "min" in option
+          ? this.slider(option, methodOf(method).live)
+          : "choices" in option
+            ? this.select(option)
+            : this.toggle(option),
+      ),
+      this.clear,
+    );
   }
 
-  private slider({ key, label, help, min, max, step, log }: Extract<MethodOption, { min: number }>, live: boolean): HTMLElement {
+  private slider(
+    { key, label, help, min, max, step, log }: Extract<MethodOption, { min: number }>, live: boolean,
+  ): HTMLElement {
     // In the logarithm the left end stands for 0.
     const [low, high] = log ? [Math.log10(min) - step, Math.log10(max)] : [min, max];
-    const valueAt = (place: number) => (!log ? place : place < low + step / 2 ? 0 : Number((10 ** place).toPrecision(2)));
+    const valueAt = (place: number) =>
+      !log ? place : place < low + step / 2 ? 0 : Number((10 ** place).toPrecision(2));
     const placeOf = (value: number) => (!log ? value : value <= 0 ? low : Math.log10(value));
-    const input = make("input", { type: "range", id: `option-${key}`, name: key, min: `${low}`, max: `${high}`, step: `${step}` });
+    const input = make("input", {
+      type: "range", id: `option-${key}`, name: key, min: `${low}`, max: `${high}`, step: `${step}`,
+    });
     const output = make("output", { for: input.id });
     const set = () => this.ask(key, valueAt(Number(input.value)));
     input.addEventListener("input", () => {
@@ -120,11 +138,14 @@ export class Panel {
       if (valueAt(Number(input.value)) !== options[key]) input.value = String(placeOf(options[key] as number));
       output.value = String(options[key]);
     });
-    return make("label", { class: "option", title: help, for: input.id }, label, output, input); // an output could be labelled too
+    // Said whose label it is, for an output could be labelled too.
+    return make("label", { class: "option", title: help, for: input.id }, label, output, input);
   }
 
   private select({ key, label, help, choices }: Extract<MethodOption, { choices: unknown }>): HTMLElement {
-    const select = make("select", { id: `option-${key}`, name: key }, ...choices.map(([value, text]) => make("option", { value }, text)));
+    const select = make(
+      "select", { id: `option-${key}`, name: key }, ...choices.map(([value, text]) => make("option", { value }, text)),
+    );
     select.addEventListener("change", () => this.ask(key, select.value));
     this.controls.push((options) => (select.value = options[key] as string));
     return make("label", { class: "option wide", title: help, for: select.id }, label, select);

@@ -16,8 +16,8 @@ export class Readout {
   constructor(private readonly present: Present) {
     const list = byId("readout");
     for (const [id, label] of [
-      ["state", "State"], ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"], ["volume", "Volume"],
-      ["stretch", "Mean stretch"], ["vertices", "Vertices"],
+      ["state", "State"], ["energy", "Energy"], ["iterations", "Iterations"], ["ms", "Time a step"],
+      ["volume", "Volume"], ["stretch", "Mean stretch"], ["vertices", "Vertices"],
     ] as const) {
       const value = make("dd", { id: `readout-${id}` }, "–");
       if (id === "state") value.replaceChildren(make("span", { class: "state" }));

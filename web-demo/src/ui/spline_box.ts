@@ -20,11 +20,17 @@ export class SplineBox {
   private dragging = false;
 
   /** `preview`: while a knot is dragged; `commit`: when it is let go. */
-  constructor(private readonly range: SplineRange, private readonly preview: (knots: Knots) => void, private readonly commit: (knots: Knots) => void) {
+  constructor(
+    private readonly range: SplineRange,
+    private readonly preview: (knots: Knots) => void,
+    private readonly commit: (knots: Knots) => void,
+  ) {
     this.knots = range.rest;
     this.dots = range.rest.map((_, i) => this.dot(i));
     const zero = makeSvg("path", { class: "zero", d: this.path(range.rest) });
-    const box = makeSvg("svg", { viewBox: `0 0 ${width} ${height}`, preserveAspectRatio: "none" }, zero, this.curve, ...this.dots);
+    const box = makeSvg(
+      "svg", { viewBox: `0 0 ${width} ${height}`, preserveAspectRatio: "none" }, zero, this.curve, ...this.dots,
+    );
     this.element = make("div", { class: "spline", title: `${range.help} Double-click: as it was.` }, range.label, box);
     box.addEventListener("dblclick", () => this.commit(range.rest));
     this.show(range.rest);
@@ -68,7 +74,8 @@ export class SplineBox {
       class: "knot", r: "5", tabindex: "0", role: "slider", "aria-label": `${label} at ${index} of ${rest.length - 1}`,
       "aria-valuemin": String(min), "aria-valuemax": String(max),
     });
-    const on = (type: string, listener: (event: PointerEvent) => void) => dot.addEventListener(type, listener as EventListener);
+    const on = (type: string, listener: (event: PointerEvent) => void) =>
+      dot.addEventListener(type, listener as EventListener);
     on("pointerdown", (event) => {
       dot.setPointerCapture(event.pointerId);
       this.dragging = true;

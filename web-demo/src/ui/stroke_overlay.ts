@@ -8,7 +8,8 @@ interface Place {
   y: number;
 }
 
-const line = (points: readonly Place[]) => (points.length < 2 ? "" : `M${points.map(({ x, y }) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`);
+const line = (points: readonly Place[]) =>
+  points.length < 2 ? "" : `M${points.map(({ x, y }) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`;
 
 export class StrokeOverlay {
   private readonly root = byId<SVGElement>("ink");

@@ -15,7 +15,12 @@ export class Toolbar {
   constructor(private readonly tools: Tool[], private readonly changed: () => void) {
     this.current = tools[0]!;
     this.buttons = tools.map((tool, i) => {
-      const button = make("button", { role: "radio", id: `tool-${tool.id}`, title: `${tool.hint} (${i + 1})`, "aria-keyshortcuts": `${i + 1}` }, icon(tool.icon), tool.label);
+      const button = make(
+        "button",
+        { role: "radio", id: `tool-${tool.id}`, title: `${tool.hint} (${i + 1})`, "aria-keyshortcuts": `${i + 1}` },
+        icon(tool.icon),
+        tool.label,
+      );
       button.addEventListener("click", () => this.choose(i));
       button.addEventListener("keydown", (event) => this.key(event, i));
       return button;

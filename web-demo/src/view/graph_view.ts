@@ -1,6 +1,14 @@
 // The deformation graph over the shape: nodes coloured by their share of the energy, and edges.
 import {
-  BufferAttribute, BufferGeometry, Color, Group, IcosahedronGeometry, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  IcosahedronGeometry,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
   MeshBasicMaterial,
 } from "three";
 import type { State } from "../solver/pliant.ts";
@@ -23,7 +31,10 @@ export function graphIn(state: State | undefined): GraphState | undefined {
   return graph?.nodes && graph.edges && graph.rotations && graph.translations ? (graph as GraphState) : undefined;
 }
 
-/** What each node adds to E_rot + 10 E_reg of Sumner et al. 2007 (eq. 5 and 7, each edge half to either end), a length one unit. */
+/**
+ * What each node adds to E_rot + 10 E_reg of Sumner et al. 2007 (eq. 5 and 7, each edge half to either end), a length
+ * one unit.
+ */
 export function nodeEnergies({ nodes, edges, rotations, translations }: GraphState, unit: number): Float64Array {
   const energy = new Float64Array(nodes.length);
   for (let j = 0; j < nodes.length; j++) {
@@ -67,7 +78,8 @@ export class GraphView {
   show(graph: GraphState | undefined, diagonal: number): void {
     this.group.visible = graph !== undefined;
     if (!graph) return;
-    const at = (j: number): [number, number, number] => [0, 1, 2].map((k) => graph.nodes[j]![k]! + graph.translations[j]![k]!) as [number, number, number];
+    const at = (j: number): [number, number, number] =>
+      [0, 1, 2].map((k) => graph.nodes[j]![k]! + graph.translations[j]![k]!) as [number, number, number];
     this.showEdges(graph, at);
     this.showNodes(graph, at, diagonal);
   }

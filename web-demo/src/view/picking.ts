@@ -15,7 +15,9 @@ export interface Hit {
 const raycaster = new Raycaster();
 
 /** The first hit of the deformed shape under a place on the page, or undefined. */
-export function pick(viewport: Viewport, view: ShapeView, present: Present, clientX: number, clientY: number): Hit | undefined {
+export function pick(
+  viewport: Viewport, view: ShapeView, present: Present, clientX: number, clientY: number,
+): Hit | undefined {
   if (!view.object) return undefined;
   const { x, y } = viewport.toClip(clientX, clientY);
   viewport.camera.updateMatrixWorld(); // it may have turned since it was last drawn

@@ -1,7 +1,7 @@
 // The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshPhongMaterial, Points,
-  PointsMaterial, SRGBColorSpace, Texture,
+  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshPhongMaterial,
+  Points, PointsMaterial, SRGBColorSpace, Texture,
 } from "three";
 import type { Doc } from "../edit/document.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
@@ -47,7 +47,9 @@ export class ShapeView {
   private surface(shape: ShapeData, solid: boolean): Mesh {
     this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
     const side = solid ? FrontSide : DoubleSide;
-    const material = tinted(new MeshPhongMaterial({ vertexColors: !shape.picture, specular: 0x1c1c1c, shininess: 24, side }));
+    const material = tinted(
+      new MeshPhongMaterial({ vertexColors: !shape.picture, specular: 0x1c1c1c, shininess: 24, side }),
+    );
     if (shape.picture) {
       material.map = pictureTexture(shape.picture.image);
       material.specular.set(0);
@@ -61,7 +63,9 @@ export class ShapeView {
 
   private dots(shape: ShapeData): Points {
     const size = (shape.dotSize ?? 0.006) * boundingBox(shape.positions).diagonal;
-    const material = tinted(new PointsMaterial({ vertexColors: true, size, sizeAttenuation: true, map: disc(), alphaTest: 0.5 }));
+    const material = tinted(
+      new PointsMaterial({ vertexColors: true, size, sizeAttenuation: true, map: disc(), alphaTest: 0.5 }),
+    );
     const points = new Points(this.geometry, material);
     points.castShadow = true;
     return points;
@@ -107,7 +111,9 @@ export class ShapeView {
       const share = faint ? 70 : 165;
       for (let v = 0; 4 * v < tints.length; v++) {
         const s = limb.parameters[v] ?? 0;
-        if ((limb.labels[v] ?? 1) > 0) tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, share], 4 * v);
+        if ((limb.labels[v] ?? 1) > 0) {
+          tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, share], 4 * v);
+        }
       }
     });
   }
@@ -144,7 +150,10 @@ function tinted<T extends Material>(material: T): T {
       .replace("void main() {", "attribute vec4 tint;\nvarying vec4 vTint;\nvoid main() {\n  vTint = tint;");
     shader.fragmentShader = shader.fragmentShader
       .replace("void main() {", "varying vec4 vTint;\nvoid main() {")
-      .replace("#include <color_fragment>", "#include <color_fragment>\n  diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb, vTint.a);");
+      .replace(
+        "#include <color_fragment>",
+        "#include <color_fragment>\n  diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb, vTint.a);",
+      );
   };
   return material;
 }

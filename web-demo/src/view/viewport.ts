@@ -132,7 +132,9 @@ export class Viewport {
     place(this.fill, -1, 0.3, 0.5);
     place(this.rim, -0.3, 0.6, -1);
     const shadow = this.sun.shadow;
-    Object.assign(shadow.camera, { left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: 0.1 * radius, far: 9 * radius });
+    Object.assign(shadow.camera, {
+      left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: 0.1 * radius, far: 9 * radius,
+    });
     shadow.camera.updateProjectionMatrix();
     shadow.bias = -0.0005;
     shadow.normalBias = 0.004 * radius;
@@ -150,7 +152,9 @@ export class Viewport {
 
   /** While strokes are drawn the right button and two fingers turn the camera, the middle button shifts it. */
   setDrawing(on: boolean): void {
-    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: on ? MOUSE.PAN : MOUSE.DOLLY, RIGHT: on ? MOUSE.ROTATE : MOUSE.PAN };
+    this.controls.mouseButtons = {
+      LEFT: MOUSE.ROTATE, MIDDLE: on ? MOUSE.PAN : MOUSE.DOLLY, RIGHT: on ? MOUSE.ROTATE : MOUSE.PAN,
+    };
     this.controls.touches = { ONE: TOUCH.ROTATE, TWO: on ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN };
   }
 
@@ -159,7 +163,12 @@ export class Viewport {
     const { up } = this.axes();
     const { clientWidth: width, clientHeight: height } = this.canvas;
     return {
-      eye: this.camera.position.toArray(), target: this.controls.target.toArray(), up: up.toArray(), fovY: this.camera.fov, width, height,
+      eye: this.camera.position.toArray(),
+      target: this.controls.target.toArray(),
+      up: up.toArray(),
+      fovY: this.camera.fov,
+      width,
+      height,
     };
   }
 
@@ -176,7 +185,9 @@ export class Viewport {
 
   /** The same in pixels from the canvas's top left corner. */
   curveOnScreen(nodes: ArrayLike<number>): { x: number; y: number }[] {
-    return Array.from({ length: nodes.length / 3 }, (_, i) => this.toScreen(new Vector3(nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2])));
+    return Array.from({ length: nodes.length / 3 }, (_, i) =>
+      this.toScreen(new Vector3(nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2])),
+    );
   }
 
   /** From pixels on the page to -1 .. 1. */
