@@ -249,7 +249,7 @@ TEST_CASE("a saved state restores the deformation, also into a fresh deformer") 
     // Handles that are cut short: an error, and nothing has changed.
     State cut = state;
     for (StateTable& table : cut.tables) {
-      if (table.name == "handles/targets") table.data.pop_back();
+      if (table.name == "handles[]/targets[]") table.data.pop_back();
     }
     deformer->reset();
     CHECK(deformer->restore(cut).code() == ErrorCode::invalid_option);

@@ -44,7 +44,7 @@ describe.each(["arap", "edge-material"] as const)("%s", (method) => {
       [{ ...state, result: undefined }, "result"],
       [{ ...state, result: state.result.slice(1) }, "result"],
       [{ ...state, nodes: [] }, "state.nodes"],
-      [{ ...state, edges: [{ ...state.edges[0], i: -2 }] }, "state.edges.i[0]", "-2"],
+      [{ ...state, edges: [{ ...state.edges[0], i: -2 }] }, "state.edges[0].i", "-2"],
       [{ ...state, edges: [{ ...state.edges[0], w: 1 }] }, "state.edges[0].w"],
       [{ ...state, edges: 4 }, "state.edges"],
     ];

@@ -1,11 +1,11 @@
 // States: between the named tables of the WASM side and the nested object of docs/state-and-report.md.
 //
-// A table "influences/weights" is the field `weights` of the object `influences`; one number, one
-// column and several columns become a number, a flat array and an array of rows. The tables of a
-// record ("edges/i", "edges/j", all of one length) become a list of objects. Handles differ in
-// length: "handles/sizes", "handles/vertices" and "handles/targets" become a list of objects.
+// Names of tables say what they are a part of, whatever the method: "influences/weights" is the field `weights` of the
+// object `influences`; "edges[]/i" the field `i` of each object in the list `edges`; "handles[]/vertices[]" a list in
+// each of `handles`, and "handles[]" how long those lists are. One number, one column and several columns become a
+// number, a flat array and an array of rows.
 
-import { fields, finite, integer, list, type Place, vector } from "./check.js";
+import { type Fields, fields, finite, integer, list, type Place, vector } from "./check.js";
 import type { Core } from "./core.js";
 import type { RawState } from "./raw.js";
 
@@ -20,7 +20,7 @@ export interface State {
   [field: string]: unknown;
 }
 
-interface Table {
+export interface Table {
   name: string;
   columns: number;
   integral: boolean;
@@ -29,8 +29,22 @@ interface Table {
 
 type Nested = Record<string, unknown>;
 
-/** Fields that are lists of objects where they are split into tables. */
-const records: readonly string[] = ["edges", "folded"];
+/**
+ * The hatch of a method whose state holds more than numbers: turns what the tables say into what callers see, and back.
+ * Neither changes what it is given.
+ */
+export interface StateHatch {
+  show(state: State): State;
+  read(place: Place, state: Fields): Fields;
+}
+
+/** A field of the objects in a list. */
+interface Column {
+  field: string;
+  /** "list": the field is a list in each object; "lengths": no field, but how long those are. */
+  kind: "value" | "list" | "lengths";
+  table: Table;
+}
 
 export function readTables(raw: RawState): Table[] {
   return Array.from({ length: raw.size() }, (_, i) => ({
@@ -38,34 +52,31 @@ export function readTables(raw: RawState): Table[] {
   }));
 }
 
-export function toState(tables: Table[]): State {
+/** The lists of objects among the tables, by name. */
+function recordsOf(tables: readonly Table[]): Map<string, Column[]> {
+  const records = new Map<string, Column[]>();
+  for (const table of tables) {
+    const [, name, field = "", list] = /^(\w+)\[\](?:\/(\w+)(\[\])?)?$/.exec(table.name) ?? [];
+    if (name === undefined) continue;
+    const kind = list ? "list" : field === "" ? "lengths" : "value";
+    records.set(name, [...(records.get(name) ?? []), { field, kind, table }]);
+  }
+  return records;
+}
+
+// -- To what callers see. ---------------------------------------------------------------------------
+
+export function toState(tables: readonly Table[], hatch?: StateHatch): State {
   const state: Nested = {};
   for (const table of tables) {
+    if (table.name.includes("[]")) continue;
     const path = table.name.split("/");
     const last = path.pop()!;
     const parent = path.reduce((at, key) => (at[key] ??= {}) as Nested, state);
     parent[last] = toValue(table);
   }
-  for (const name of records) if (isColumns(state[name])) state[name] = toRows(state[name]);
-  if (state.handles) state.handles = splitHandles(state.handles as PackedHandles);
-  return state as State;
-}
-
-type Columns = Record<string, unknown[]>;
-
-function isColumns(value: unknown): value is Columns {
-  return typeof value === "object" && value !== null && !Array.isArray(value);
-}
-
-function toRows(columns: Columns): Nested[] {
-  const names = Object.keys(columns);
-  return columns[names[0]].map((_, row) => Object.fromEntries(names.map((name) => [name, columns[name][row]])));
-}
-
-/** Back from rows with fields of these names. */
-function toColumns(place: Place, value: unknown, names: string[]): Columns {
-  const rows = Array.from(list(place, value), (row, i) => fields(place.item(i), row, names));
-  return Object.fromEntries(names.map((name) => [name, rows.map((row) => row[name])]));
+  for (const [name, columns] of recordsOf(tables)) state[name] = toObjects(columns);
+  return hatch ? hatch.show(state as State) : (state as State);
 }
 
 function toValue({ columns, data }: Table): unknown {
@@ -75,67 +86,76 @@ function toValue({ columns, data }: Table): unknown {
   return Array.from({ length: flat.length / columns }, (_, row) => flat.slice(row * columns, (row + 1) * columns));
 }
 
-interface PackedHandles {
-  sizes: number[];
-  vertices: number[];
-  targets: number[][];
+function toObjects(columns: readonly Column[]): Nested[] {
+  const lengths = columns.find(({ kind }) => kind === "lengths")?.table.data ?? [];
+  const fields = columns.filter(({ kind }) => kind !== "lengths");
+  const values = fields.map(({ kind, table }) => {
+    const rows = toValue(table) as unknown[];
+    return kind === "list" ? pieces(rows, lengths) : rows;
+  });
+  return values[0].map((_, i) => Object.fromEntries(fields.map(({ field }, f) => [field, values[f][i]])));
 }
 
-function splitHandles({ sizes, vertices, targets }: PackedHandles): HandleState[] {
+function pieces<T>(values: readonly T[], lengths: ArrayLike<number>): T[][] {
   let end = 0;
-  return sizes.map((size) => {
-    const from = end;
-    end += size;
-    return { vertices: vertices.slice(from, end), targets: targets.slice(from, end) };
-  });
+  return Array.from(lengths, (length) => values.slice(end, (end += length)));
 }
 
-/** Handles back in one piece; their lists have equal lengths. */
-function packHandles(place: Place, value: unknown): PackedHandles {
-  const handles = Array.from(list(place, value), (item, i) => {
-    const handle = fields(place.item(i), item, ["vertices", "targets"]);
-    const vertices = Array.from(list(place.item(i).at("vertices"), handle.vertices));
-    const targets = Array.from(list(place.item(i).at("targets"), handle.targets));
-    if (vertices.length !== targets.length) {
-      place.item(i).reject(`has ${vertices.length} vertices and ${targets.length} targets; expected as many`);
-    }
-    return { vertices, targets };
-  });
-  return {
-    sizes: handles.map((handle) => handle.vertices.length),
-    vertices: handles.flatMap((handle) => handle.vertices) as number[],
-    targets: handles.flatMap((handle) => handle.targets) as number[][],
-  };
-}
+// -- And back. --------------------------------------------------------------------------------------
 
 /**
  * Fills `raw` from a state with fields that `like` has too, tables of the same deformation; it may have fewer, and
  * `others`, which are left out.
  */
 export function writeTables(
-  core: Core, raw: RawState, place: Place, state: unknown, like: Table[], others: readonly string[],
+  core: Core, raw: RawState, place: Place, state: unknown, like: readonly Table[], others: readonly string[],
+  hatch?: StateHatch,
 ): void {
-  const tops = [...new Set([...like.map((table) => table.name.split("/")[0]), ...others])];
-  const given: Nested = { ...fields(place, state, tops, "field of this state") };
-  for (const name of records) {
-    const columns = like
-      .filter((table) => table.name.startsWith(`${name}/`))
-      .map((table) => table.name.slice(name.length + 1));
-    if (columns.length > 0 && given[name] !== undefined) given[name] = toColumns(place.at(name), given[name], columns);
-  }
-  if (given.handles !== undefined) given.handles = packHandles(place.at("handles"), given.handles);
+  const tops = [...new Set([...like.map((table) => /^\w+/.exec(table.name)![0]), ...others])];
+  const checked = fields(place, state, tops, "field of this state");
+  const given = hatch ? hatch.read(place, checked) : checked;
+  const write = ({ name, columns, integral }: Table, numbers: readonly number[]) =>
+    raw.add(name, columns, integral, core.stage(numbers));
   for (const table of like) {
+    if (table.name.includes("[]")) continue;
     const value = table.name.split("/").reduce<unknown>((at, key) => (at as Nested | undefined)?.[key], given);
-    if (value === undefined) continue;
-    const numbers = readTable(place.at(table.name.replaceAll("/", ".")), value, table);
-    raw.add(table.name, table.columns, table.integral, core.stage(numbers));
+    if (value !== undefined) write(table, readTable(place.at(table.name.replaceAll("/", ".")), value, table));
+  }
+  for (const [name, columns] of recordsOf(like)) {
+    if (given[name] === undefined) continue;
+    const numbers = readObjects(place.at(name), given[name], columns);
+    columns.forEach(({ table }, i) => write(table, numbers[i]));
   }
 }
 
-function readTable(place: Place, value: unknown, { columns, integral }: Table): number[] {
-  const number = (at: Place, item: unknown) => (integral ? integer(at, item, -1, 2 ** 31 - 1) : finite(at, item));
-  if (columns === 0) return [number(place, value)];
-  const rows = Array.from(list(place, value));
-  if (columns === 1) return rows.map((item, i) => number(place.item(i), item));
-  return rows.flatMap((row, i) => vector(place.item(i), row, columns).map((item) => number(place.item(i), item)));
+/** The numbers of each column. */
+function readObjects(place: Place, value: unknown, columns: readonly Column[]): number[][] {
+  const names = columns.flatMap(({ field, kind }) => (kind === "lengths" ? [] : [field]));
+  const objects = Array.from(list(place, value), (item, i) => fields(place.item(i), item, names));
+  const lists = columns.filter(({ kind }) => kind === "list").map(({ field }) => field);
+  const lengths = objects.map((object, i) => commonLength(place.item(i), object, lists));
+  return columns.map(({ field, kind, table }) => {
+    if (kind === "lengths") return lengths;
+    const read = kind === "list" ? readTable : readRow;
+    return objects.flatMap((object, i) => read(place.item(i).at(field), object[field], table));
+  });
+}
+
+/** How long the lists of an object are, which go together. */
+function commonLength(place: Place, object: Fields, lists: readonly string[]): number {
+  const [first, ...others] = lists.map((field) => [field, list(place.at(field), object[field]).length] as const);
+  for (const [field, length] of others) {
+    if (length !== first[1]) place.reject(`has ${first[1]} ${first[0]} and ${length} ${field}; expected as many`);
+  }
+  return first?.[1] ?? 0;
+}
+
+function readTable(place: Place, value: unknown, table: Table): number[] {
+  if (table.columns === 0) return readRow(place, value, table);
+  return Array.from(list(place, value)).flatMap((row, i) => readRow(place.item(i), row, table));
+}
+
+function readRow(place: Place, value: unknown, { columns, integral }: Table): number[] {
+  const number = (item: unknown) => (integral ? integer(place, item, -1, 2 ** 31 - 1) : finite(place, item));
+  return columns <= 1 ? [number(value)] : vector(place, value, columns).map(number);
 }

@@ -3,7 +3,7 @@
 import { coordinates, type FloatArray, output, Place, toSpace } from "../boundary/check.js";
 import { accept, type Core, disposeSymbol, Owned } from "../boundary/core.js";
 import type { RawDeformation, RawState } from "../boundary/raw.js";
-import { readTables, type State, toState, writeTables } from "../boundary/state.js";
+import { readTables, type State, type StateHatch, toState, writeTables } from "../boundary/state.js";
 import type { Shape } from "../shape/shape.js";
 
 const pointsPerCall = 1 << 16;
@@ -69,7 +69,7 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
   state(): S {
     return this.#withState((raw, state) => {
       raw.save(state);
-      return toState(readTables(state)) as object as S;
+      return toState(readTables(state), this.stateHatch) as object as S;
     });
   }
 
@@ -83,7 +83,7 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
       raw.save(saved);
       const like = readTables(saved);
       return this.#withState((_, given) => {
-        writeTables(this.owned.core, given, place, state, like, this.optionalFields);
+        writeTables(this.owned.core, given, place, state, like, this.optionalFields, this.stateHatch);
         accept(raw.restore(given));
       });
     });
@@ -92,6 +92,11 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
   /** Fields that a state may have or not. @internal */
   protected get optionalFields(): readonly string[] {
     return [];
+  }
+
+  /** What its state has beside numbers. @internal */
+  protected get stateHatch(): StateHatch | undefined {
+    return undefined;
   }
 
   /** Back to rest, bit for bit; what was chosen to be held or moved stays so. */

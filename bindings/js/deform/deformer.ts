@@ -3,7 +3,7 @@
 import { fields, integer, Place, positive, vertexIds } from "../boundary/check.js";
 import { accept, build, type Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
-import type { State } from "../boundary/state.js";
+import type { State, StateHatch } from "../boundary/state.js";
 import { Deformation } from "./deformation.js";
 import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import { Handle } from "./handle.js";
@@ -207,6 +207,10 @@ export class Deformer<M extends MethodName = MethodName> extends Deformation<Sta
 
   counters(): Counters {
     return this.owned.call((raw) => raw.counters());
+  }
+
+  protected override get stateHatch(): StateHatch | undefined {
+    return this.#method.state;
   }
 
   /**

@@ -2,6 +2,7 @@
 
 import { type Fields, fields, type Place } from "../boundary/check.js";
 import type { RawValues } from "../boundary/raw.js";
+import type { StateHatch } from "../boundary/state.js";
 import type { Extent } from "../shape/selection.js";
 import type { Shape } from "../shape/shape.js";
 import type { Option, OptionInfo } from "./option.js";
@@ -35,6 +36,8 @@ export interface Declaration {
   readonly loads: readonly string[];
   /** What has to hold between options, beside what stands for what. */
   check?(place: Place, options: Options): void;
+  /** Where its state holds words, or fields that are not always of one kind. */
+  readonly state?: StateHatch;
 }
 
 /** What `pliant.methods` says of a method. */

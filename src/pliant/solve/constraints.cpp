@@ -178,8 +178,8 @@ ToldTurns Constraints::take_turns() {
 }
 
 void Constraints::save(State& state) const {
-  StateTable sizes{"handles/sizes", 1, true, {}}, vertices{"handles/vertices", 1, true, {}},
-      targets{"handles/targets", 3, false, {}};
+  StateTable sizes{"handles[]", 1, true, {}}, vertices{"handles[]/vertices[]", 1, true, {}},
+      targets{"handles[]/targets[]", 3, false, {}};
   for (const Handle& handle : handles_) {
     sizes.data.push_back(static_cast<double>(handle.points.size()));
     for (Index point : handle.points) vertices.data.push_back(shape_->vertex_of_point()[point]);
@@ -189,9 +189,9 @@ void Constraints::save(State& state) const {
 }
 
 Status Constraints::check(const State& state) const {
-  const StateTable* sizes = state.find("handles/sizes");
-  const StateTable* vertices = state.find("handles/vertices");
-  const StateTable* targets = state.find("handles/targets");
+  const StateTable* sizes = state.find("handles[]");
+  const StateTable* vertices = state.find("handles[]/vertices[]");
+  const StateTable* targets = state.find("handles[]/targets[]");
   if (sizes == nullptr || vertices == nullptr || targets == nullptr) return {};
   double sum = 0.0;
   for (double size : sizes->data) {
@@ -212,9 +212,9 @@ Status Constraints::check(const State& state) const {
 
 void Constraints::restore(const State& state) {
   for (Private& own : private_) own.taken.reset();
-  const StateTable* sizes = state.find("handles/sizes");
-  const StateTable* vertices = state.find("handles/vertices");
-  const StateTable* targets = state.find("handles/targets");
+  const StateTable* sizes = state.find("handles[]");
+  const StateTable* vertices = state.find("handles[]/vertices[]");
+  const StateTable* targets = state.find("handles[]/targets[]");
   if (sizes == nullptr || vertices == nullptr || targets == nullptr) return;
   const auto same = [&](Index point, double vertex) { return shape_->vertex_of_point()[point] == vertex; };
   std::size_t first = 0;

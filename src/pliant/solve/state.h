@@ -10,7 +10,9 @@ namespace pliant {
 
 /// A table of numbers: `data.size() / columns` rows, row after row; columns = 0 means one scalar.
 struct StateTable {
-  std::string name;  ///< as in docs/state-and-report.md; "handles/vertices" is a field of a list of objects
+  /// As in docs/state-and-report.md: "weights/mu" is a field of an object, "edges[]/i" one of each object in a list,
+  /// "handles[]/targets[]" a list in each of them, and "handles[]" how many rows of it each has.
+  std::string name;
   int columns = 1;
   bool integral = false;
   std::vector<double> data;

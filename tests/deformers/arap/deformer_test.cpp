@@ -247,8 +247,9 @@ TEST_CASE("ARAP: the saved state gives the energy without Pliant") {
   test::settle(*deformer);
   const State state = deformer->save();
   const test::Mesh soup = test::soup(mesh);
-  const auto &i = state.find("edges/i")->data, &j = state.find("edges/j")->data, &w = state.find("edges/weight")->data,
-             &r = state.find("rotations")->data, &result = state.find("result")->data;
+  const auto &i = state.find("edges[]/i")->data, &j = state.find("edges[]/j")->data,
+             &w = state.find("edges[]/weight")->data, &r = state.find("rotations")->data,
+             &result = state.find("result")->data;
   REQUIRE(result.size() == soup.positions.size());
   double sum = 0.0;
   for (std::size_t e = 0; e < w.size(); ++e) {

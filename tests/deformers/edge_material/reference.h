@@ -14,9 +14,9 @@ class EdgeReference {
  public:
   explicit EdgeReference(const State& state) {
     const auto column = [&](const char* name) { return state.find(name)->data; };
-    const auto i = column("edges/i"), j = column("edges/j"), l = column("edges/l"), m = column("edges/m"),
-               alpha = column("edges/alpha"), beta = column("edges/beta"), rho = column("edges/rho"),
-               sigma = column("edges/sigma"), kappa = column("edges/kappa");
+    const auto i = column("edges[]/i"), j = column("edges[]/j"), l = column("edges[]/l"), m = column("edges[]/m"),
+               alpha = column("edges[]/alpha"), beta = column("edges[]/beta"), rho = column("edges[]/rho"),
+               sigma = column("edges[]/sigma"), kappa = column("edges[]/kappa");
     for (std::size_t e = 0; e < i.size(); ++e) {
       const auto id = [](double v) { return static_cast<Index>(v); };
       edges_.push_back({id(i[e]), id(j[e]), id(l[e]), id(m[e]), alpha[e], beta[e], rho[e], sigma[e], kappa[e]});

@@ -69,8 +69,8 @@ Energy Arap::energy() const {
 State Arap::do_save() const {
   const arap::ArapModel& model = *impl_->model;
   State state;
-  StateTable i{"edges/i", 1, true, {}}, j{"edges/j", 1, true, {}},
-      weight{"edges/weight", 1, false, model.spoke_weights()};
+  StateTable i{"edges[]/i", 1, true, {}}, j{"edges[]/j", 1, true, {}},
+      weight{"edges[]/weight", 1, false, model.spoke_weights()};
   for (std::size_t e = 0; e < model.edges().size(); ++e) {
     i.data.push_back(shape().vertex_of_point()[model.edges()[e][0]]);
     j.data.push_back(shape().vertex_of_point()[model.edges()[e][1]]);

@@ -109,15 +109,15 @@ State EdgeMaterial::do_save() const {
     StateTable& table = state.add(name, 1, false);
     for (const EdgeElement& e : impl_->model.elements()) table.data.push_back(e.*field);
   };
-  add_ids("edges/i", &EdgeElement::i);
-  add_ids("edges/j", &EdgeElement::j);
-  add_ids("edges/l", &EdgeElement::l);
-  add_ids("edges/m", &EdgeElement::m);
-  add_numbers("edges/alpha", &EdgeElement::alpha);
-  add_numbers("edges/beta", &EdgeElement::beta);
-  add_numbers("edges/rho", &EdgeElement::rho);
-  add_numbers("edges/sigma", &EdgeElement::sigma);
-  add_numbers("edges/kappa", &EdgeElement::kappa);
+  add_ids("edges[]/i", &EdgeElement::i);
+  add_ids("edges[]/j", &EdgeElement::j);
+  add_ids("edges[]/l", &EdgeElement::l);
+  add_ids("edges[]/m", &EdgeElement::m);
+  add_numbers("edges[]/alpha", &EdgeElement::alpha);
+  add_numbers("edges[]/beta", &EdgeElement::beta);
+  add_numbers("edges[]/rho", &EdgeElement::rho);
+  add_numbers("edges[]/sigma", &EdgeElement::sigma);
+  add_numbers("edges[]/kappa", &EdgeElement::kappa);
   const auto add_scalar = [&](const char* name, double value) { state.add(name, 0, false).data = {value}; };
   add_scalar("weights/lambda", w.lambda);
   add_scalar("weights/mu", w.mu);
@@ -129,8 +129,8 @@ State EdgeMaterial::do_save() const {
     if (!impl_->model.anchored(shape().point_of_vertex()[v])) floating.data.push_back(v);
   }
   const std::vector<Index> folded = impl_->model.folded(point_positions());
-  state.add("folded/edge", 1, true).data.assign(folded.begin(), folded.end());
-  StateTable& normals = state.add("folded/normal", 3, false);
+  state.add("folded[]/edge", 1, true).data.assign(folded.begin(), folded.end());
+  StateTable& normals = state.add("folded[]/normal", 3, false);
   for (Index element : folded) {
     const Eigen::Vector3d normal = impl_->model.normal(element);
     normals.data.insert(normals.data.end(), normal.begin(), normal.end());
@@ -140,8 +140,8 @@ State EdgeMaterial::do_save() const {
 }
 
 Status EdgeMaterial::do_restore(const State& state) {
-  const StateTable* edges = state.find("folded/edge");
-  const StateTable* normals = state.find("folded/normal");
+  const StateTable* edges = state.find("folded[]/edge");
+  const StateTable* normals = state.find("folded[]/normal");
   const std::vector<double> none;
   const std::vector<double>& folded = edges != nullptr ? edges->data : none;
   if (3 * folded.size() != (normals != nullptr ? normals->data.size() : 0)) {
