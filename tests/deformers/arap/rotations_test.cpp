@@ -48,6 +48,27 @@ TEST_CASE("rotations: a turned neighbourhood gives the turn, also half a turn an
   }
 }
 
+TEST_CASE("rotations: reflected neighbourhoods, whose largest roots are nearly one, have the best rotation") {
+  // Where a crumpled cell got another one the energy had no gradient there, and descent stalled.
+  test::Random random(11);
+  std::vector<Eigen::Vector3d> values;
+  for (double second = 0.1; second <= 1.0; second += 0.1) {
+    for (double share = 0.0; share < 1.0; share += 0.04) values.emplace_back(1.0, second, -share * second);
+  }
+  Rotations s(9, static_cast<Index>(values.size()));
+  const auto turn = [&] {
+    return Eigen::AngleAxisd(random.number(), random.vector(3).normalized()).toRotationMatrix();
+  };
+  for (Index i = 0; i < s.cols(); ++i) s.col(i) = (turn() * values[i].asDiagonal() * turn()).eval().reshaped();
+  const Rotations r = fitted(s);
+  for (Index i = 0; i < s.cols(); ++i) {
+    CAPTURE(values[i].transpose());
+    const Eigen::Matrix3d found = r.col(i).reshaped(3, 3);
+    CHECK((found * found.transpose()).isIdentity(1e-9));
+    CHECK((found.transpose() * s.col(i).reshaped(3, 3)).trace() == doctest::Approx(values[i].sum()).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("rotations: nothing to go by gives the identity, a line gives a rotation") {
   Rotations s = Rotations::Zero(9, 2);
   s(0, 1) = 1.0;

@@ -8,13 +8,15 @@
 namespace pliant::arap {
 namespace {
 
+using dense::splat2;
 using dense::Vec2;
 
 /// (s1 + s2)(s2 + s3)(s3 + s1) over (s1 + s2 + s3)^3, singular values signed: below this the closed
 /// form has fewer than ten digits left.
 constexpr double kLeastGap = 1e-2;
-/// Newton steps for the largest root, at most; the start is exact for flat neighbourhoods.
-constexpr int kRootSteps = 6;
+/// Newton steps for the largest root, at most. The start is exact for flat neighbourhoods, others take up to 6 and
+/// reflected ones, whose two largest roots lie close together, up to 12. Where these are not enough an SVD takes over.
+constexpr int kRootSteps = 12;
 /// A step this small, squared, leaves nothing but rounding: the steps' lengths are squared from one
 /// to the next, times at most 200 where the gap is not too small.
 constexpr double kLastStep = 1e-20;
@@ -22,7 +24,7 @@ constexpr double kLastStep = 1e-20;
 Vec2 square_root(Vec2 v) { return Vec2{std::sqrt(v[0]), std::sqrt(v[1])}; }
 
 /// Two covariances side by side, `s` column-major with squared norm 1; the rotations into `r`.
-/// Returns the gap of each.
+/// Returns the gap of each, 0 where the root was not found.
 Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   Vec2 cofactor[9];
   for (int c = 0; c < 3; ++c) {
@@ -36,13 +38,12 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   for (int k = 1; k < 9; ++k) minors += cofactor[k] * cofactor[k];
 
   // Largest root of (x^2 - 1)^2 - 8 det x - 4 |cofactors|^2: the sum of the singular values.
-  Vec2 root = square_root(1.0 + 2.0 * square_root(minors));
-  for (int i = 0; i < kRootSteps; ++i) {
+  Vec2 root = square_root(1.0 + 2.0 * square_root(minors)), last = splat2(1.0);
+  for (int i = 0; i < kRootSteps && !(last[0] < kLastStep && last[1] < kLastStep); ++i) {
     const Vec2 q = root * root - 1.0;
     const Vec2 step = (q * q - 8.0 * det * root - 4.0 * minors) / (4.0 * q * root - 8.0 * det + 1e-300);
     root -= step;
-    const Vec2 squared = step * step;
-    if (squared[0] < kLastStep && squared[1] < kLastStep) break;
+    last = step * step;
   }
   const Vec2 kappa = 0.5 * (root * root - 1.0);
   const Vec2 zeta = kappa * root - det;
@@ -64,8 +65,11 @@ Vec2 fit_two(const Vec2 s[9], Vec2 r[9]) {
   }
   // Where all minors are rounding a Newton step may leave the range of sums of singular values,
   // 1 to the square root of 3.
-  const Vec2 gap = zeta / (root * root * root);
-  return Vec2{std::abs(root[0]) < 2.0 ? gap[0] : 0.0, std::abs(root[1]) < 2.0 ? gap[1] : 0.0};
+  Vec2 gap = zeta / (root * root * root);
+  for (int lane = 0; lane < 2; ++lane) {
+    if (!(last[lane] < kLastStep && std::abs(root[lane]) < 2.0)) gap[lane] = 0.0;
+  }
+  return gap;
 }
 
 void fit_planar(const double* s, double* r) {
