@@ -140,5 +140,6 @@ test("what is painted as fixed is held where it is, also where it is bent", asyn
   const again = await demo.handle();
   await demo.drag(again, { x: again.x - 20, y: again.y + 60 });
   expect(farthest(bent, await demo.positions(), [under])).toBeLessThan(1e-6 * (await diagonal()));
-  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(5e-3 * (await diagonal()));
+  // The page came here by way of the first bend: another path to the same minimum, as near as the solver's test tells.
+  expect(farthest((await replayed()).positions, await demo.positions())).toBeLessThan(1e-4 * (await diagonal()));
 });
