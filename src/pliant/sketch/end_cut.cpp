@@ -80,15 +80,22 @@ EndCutter::Section EndCutter::section_at(double s) const {
   return {true, is_section(cut.loops()[loop], s), cut.loops()[loop].length};
 }
 
-EndCut EndCutter::cut(double s, CutSide off) const {
+std::vector<CutSide> EndCutter::sides_of_plane(double s) const {
   const std::vector<double> distance = distances(shape_, across(s));
   PlaneCut cut(shape_.view, shape_.triangles, part_, distance);
   const Index first = loop_at(cut.loops(), s);
   if (first < 0) return {};
-  cut.separate(first);
-  EndCut result{s, {}};
-  for (const CutSide side : cut.sides(cut_band(shape_, stroke_))) result.off.push_back(side == off);
-  return result;
+  cut.separate(first, true);
+  return cut.sides_of_plane();
+}
+
+EndCut EndCutter::cut(double s) const {
+  const std::vector<double> distance = distances(shape_, across(s));
+  PlaneCut cut(shape_.view, shape_.triangles, part_, distance);
+  const Index first = loop_at(cut.loops(), s);
+  if (first < 0) return {};
+  cut.separate(first, true);
+  return {s, cut.sides(cut_band(shape_, stroke_))};
 }
 
 /// Past the last place where the section shrinks at once, since there the limb leaves the body, or
@@ -107,17 +114,17 @@ EndCut EndCutter::limb_start() const {
     }
     before = section;
   }
-  return cut(first * kSlideStep, CutSide::behind);
+  return cut(first * kSlideStep);
 }
 
 /// The end moves back only as long as its section is none.
 EndCut EndCutter::limb_end() const {
   for (int k = 0; k <= kSlides; ++k) {
     const Section section = section_at(1.0 - k * kSlideStep);
-    if (section.narrow) return cut(1.0 - k * kSlideStep, CutSide::ahead);
+    if (section.narrow) return cut(1.0 - k * kSlideStep);
     if (k == 0 && !section.there) return {};
   }
-  return end();
+  return cut(1.0);
 }
 
 }  // namespace pliant

@@ -25,8 +25,9 @@ double cut_band(const SeenShape& shape, const LaidStroke& stroke);
 
 /// The shape cut across one end of the stroke.
 struct EndCut {
-  double s = 0.0;         ///< where on the stroke
-  std::vector<bool> off;  ///< for every triangle of the part: beyond that end. Empty: nothing is cut
+  double s = 0.0;  ///< where on the stroke
+  std::vector<CutSide>
+      sides;  ///< of every triangle of the part; towards the stroke's end is ahead. Empty: nothing is cut
 };
 
 class EndCutter {
@@ -35,9 +36,9 @@ class EndCutter {
   EndCutter(const SeenShape& shape, const LaidStroke& stroke, std::span<const Index> part)
       : shape_(shape), stroke_(stroke), part_(part) {}
 
-  /// Across the ends themselves.
-  EndCut start() const { return cut(0.0, CutSide::behind); }
-  EndCut end() const { return cut(1.0, CutSide::ahead); }
+  /// The side on which every triangle of the part lies of the plane across the stroke at s: the loop there alone
+  /// counts. Empty: none is there.
+  std::vector<CutSide> sides_of_plane(double s) const;
 
   /// A plane that would run through more than the limb (its loop comes near to quite other places
   /// of the stroke) moves along the stroke, at most over 40 % of it, until it crosses the limb
@@ -53,7 +54,7 @@ class EndCutter {
     double length = 0.0;
   };
 
-  EndCut cut(double s, CutSide off) const;
+  EndCut cut(double s) const;
   Eigen::Vector3d anchor(double s) const;
   Index loop_at(const std::vector<CutLoop>& loops, double s) const;
   bool is_section(const CutLoop& loop, double s) const;

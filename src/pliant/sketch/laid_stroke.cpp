@@ -19,25 +19,27 @@ Status check_distance(const Points& view) {
           message({"camera.eye is ", far, " away from the shape; expected at most 1e7 times its size"})};
 }
 
+Result<LaidStroke> laid(const SeenShape& shape, Polyline pixels, std::vector<std::vector<Hit>> hits) {
+  const auto met = std::find_if(hits.begin(), hits.end(), [](const std::vector<Hit>& along) { return !along.empty(); });
+  const double depth = met != hits.end() ? met->front().depth : shape.view.row(2).mean();
+  if (!shape.camera.sees(depth)) {
+    return Status(ErrorCode::invalid_option, "camera.eye has the shape behind it; expected the shape in view");
+  }
+  Polyline nodes(2, pixels.cols());
+  for (Index i = 0; i < pixels.cols(); ++i) nodes.col(i) = shape.camera.at_depth(pixels.col(i), depth);
+  return LaidStroke{std::move(pixels), std::move(hits), depth, PlaneCurve(std::move(nodes))};
+}
+
 }  // namespace
 
 Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels) {
   if (Status status = check_distance(shape.view); !status.ok()) return status;
-  LaidStroke laid;
-  laid.pixels = pixels;
-  laid.hits = hits_through(shape.camera, shape.view, shape.triangles, pixels);
-  const auto met =
-      std::find_if(laid.hits.begin(), laid.hits.end(), [](const std::vector<Hit>& hits) { return !hits.empty(); });
-  laid.depth = met != laid.hits.end() ? met->front().depth : shape.view.row(2).mean();
-  if (!shape.camera.sees(laid.depth)) {
-    return Status(ErrorCode::invalid_option, "camera.eye has the shape behind it; expected the shape in view");
-  }
-  Polyline nodes(2, pixels.cols());
-  for (Index i = 0; i < pixels.cols(); ++i) {
-    nodes.col(i) = shape.camera.at_depth(pixels.col(i), laid.depth);
-  }
-  laid.curve = PlaneCurve(std::move(nodes));
-  return laid;
+  return laid(shape, pixels, hits_through(shape.camera, shape.view, shape.triangles, pixels));
+}
+
+Result<LaidStroke> reversed(const SeenShape& shape, LaidStroke stroke) {
+  std::reverse(stroke.hits.begin(), stroke.hits.end());
+  return laid(shape, stroke.pixels.rowwise().reverse(), std::move(stroke.hits));
 }
 
 }  // namespace pliant

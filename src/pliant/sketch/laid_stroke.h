@@ -29,4 +29,7 @@ struct LaidStroke {
 /// Errors: invalid_option (the plane is behind the eye, or the shape too far away for its size).
 Result<LaidStroke> lay_stroke(const SeenShape& shape, const Polyline& pixels);
 
+/// The stroke as if it had been drawn from its end on. Errors: those of lay_stroke.
+Result<LaidStroke> reversed(const SeenShape& shape, LaidStroke stroke);
+
 }  // namespace pliant

@@ -19,7 +19,7 @@ namespace {
 constexpr double kConcave = 1.0, kConvex = 0.2;  // eta
 constexpr double kLeastCost = 0.01;              // of the length
 
-/// An edge of a triangle; equal edges stand together when sorted.
+/// An edge of a triangle, which is given by its place among those chosen; equal edges stand together when sorted.
 struct Side {
   Index low, high, triangle, opposite;
   bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
@@ -28,10 +28,11 @@ struct Side {
 std::vector<Side> sorted_sides(const Triangles& triangles, std::span<const Index> chosen) {
   std::vector<Side> sides;
   sides.reserve(3 * chosen.size());
-  for (const Index t : chosen) {
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Index t = chosen[i];
     for (int c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(triangles(c, t), triangles((c + 1) % 3, t));
-      sides.push_back({low, high, t, triangles((c + 2) % 3, t)});
+      sides.push_back({low, high, static_cast<Index>(i), triangles((c + 2) % 3, t)});
     }
   }
   return sorted_by(sides, [](const Side& side) { return key_of(side.low, side.high); });
@@ -71,21 +72,21 @@ std::vector<Index> connected_points(const Triangles& triangles, Index points) {
 
 PlaneCut::PlaneCut(const Points& points, const Triangles& triangles, std::span<const Index> part,
                    std::span<const double> distance)
-    : points_(points), triangles_(triangles), part_(part), distance_(distance) {
+    : points_(points), triangles_(triangles), part_(part), distance_(distance), ahead_(distance.size()) {
+  for (std::size_t p = 0; p < distance.size(); ++p) ahead_[p] = distance[p] >= 0.0;
   find_loops();
 }
 
-bool PlaneCut::crossed(Index t) const {
-  const int ahead = (distance_[triangles_(0, t)] >= 0.0) + (distance_[triangles_(1, t)] >= 0.0) +
-                    (distance_[triangles_(2, t)] >= 0.0);
-  return ahead != 0 && ahead != 3;
+bool PlaneCut::is_crossed(Index t) const {
+  const auto first = ahead_[triangles_(0, t)];
+  return first != ahead_[triangles_(1, t)] || first != ahead_[triangles_(2, t)];
 }
 
 void PlaneCut::find_pieces() {
   DisjointSets pieces(static_cast<Index>(points_.cols()));
   for (const Index t : part_) {
     const Index a = triangles_(0, t), b = triangles_(1, t), c = triangles_(2, t);
-    const bool at_a = distance_[a] >= 0.0, at_b = distance_[b] >= 0.0, at_c = distance_[c] >= 0.0;
+    const auto at_a = ahead_[a], at_b = ahead_[b], at_c = ahead_[c];
     if (at_a == at_b) pieces.join(a, b);
     if (at_a == at_c) pieces.join(a, c);
     if (at_a != at_b && at_b == at_c) pieces.join(b, c);
@@ -94,28 +95,23 @@ void PlaneCut::find_pieces() {
 }
 
 Index PlaneCut::piece_of(const CutLoop& loop, bool ahead) const {
-  for (const Index corner : triangles_.col(loop.triangles.front())) {
-    if ((distance_[corner] >= 0.0) == ahead) return piece_[corner];
-  }
-  return -1;
+  const auto& corners = triangles_.col(loop.triangles.front());
+  int c = 0;  // a crossed triangle has corners on both sides
+  while (is_ahead(corners[c]) != ahead) ++c;
+  return piece_[corners[c]];
 }
 
 void PlaneCut::find_loops() {
   std::vector<Index> across;
   for (const Index t : part_) {
-    if (crossed(t)) across.push_back(t);
+    if (is_crossed(t)) across.push_back(t);
   }
   DisjointSets sets(static_cast<Index>(across.size()));
-  const auto place = [&](Index t) {
-    return static_cast<Index>(std::lower_bound(across.begin(), across.end(), t) - across.begin());
-  };
   const std::vector<Side> sides = sorted_sides(triangles_, across);
-  const auto is_crossed = [&](const Side& side) {
-    return (distance_[side.low] >= 0.0) != (distance_[side.high] >= 0.0);
-  };
+  const auto crosses = [&](const Side& side) { return ahead_[side.low] != ahead_[side.high]; };
   for_each_run(sides, [&](auto first, auto last) {
-    for (auto next = first + 1; is_crossed(*first) && next != last; ++next) {
-      sets.join(place(first->triangle), place(next->triangle));
+    for (auto next = first + 1; crosses(*first) && next != last; ++next) {
+      sets.join(first->triangle, next->triangle);
     }
   });
 
@@ -128,8 +124,8 @@ void PlaneCut::find_loops() {
     return (1.0 - share) * points_.col(a) + share * points_.col(b);
   };
   for_each_run(sides, [&](auto first, auto) {
-    if (!is_crossed(*first)) return;
-    crossings[loop.of[place(first->triangle)]].push_back(crossing(first->low, first->high));
+    if (!crosses(*first)) return;
+    crossings[loop.of[first->triangle]].push_back(crossing(first->low, first->high));
   });
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     loops_[l].crossings.resize(3, static_cast<Index>(crossings[l].size()));
@@ -139,8 +135,8 @@ void PlaneCut::find_loops() {
     for (const Index t : loops_[l].triangles) {
       // The corner alone on its side.
       int c = 0;
-      const auto is_ahead = [&](int k) { return distance_[triangles_(k % 3, t)] >= 0.0; };
-      while (is_ahead(c) == is_ahead(c + 1) || is_ahead(c) == is_ahead(c + 2)) ++c;
+      const auto ahead = [&](int k) { return ahead_[triangles_(k % 3, t)]; };
+      while (ahead(c) == ahead(c + 1) || ahead(c) == ahead(c + 2)) ++c;
       const Index tip = triangles_(c, t);
       loops_[l].length +=
           (crossing(tip, triangles_((c + 1) % 3, t)) - crossing(tip, triangles_((c + 2) % 3, t))).norm();
@@ -148,9 +144,15 @@ void PlaneCut::find_loops() {
   }
 }
 
-const std::vector<Index>& PlaneCut::separate(Index first) {
+const std::vector<Index>& PlaneCut::separate(Index first, bool connected) {
+  const auto points = static_cast<Index>(points_.cols());
+  side_.resize(points);
+  if (connected && loops_.size() == 1) {
+    for (Index p = 0; p < points; ++p) side_[p] = is_ahead(p) ? CutSide::ahead : CutSide::behind;
+    return kept_ = {first};
+  }
   find_pieces();
-  DisjointSets groups(static_cast<Index>(piece_.size()));
+  DisjointSets groups(points);
   const Index source = behind(loops_[first]), sink = ahead(loops_[first]);
   for (const CutLoop& loop : loops_) {
     const Index a = groups.find(behind(loop)), b = groups.find(ahead(loop));
@@ -158,57 +160,54 @@ const std::vector<Index>& PlaneCut::separate(Index first) {
     const bool merges = (a == s && b == t) || (a == t && b == s);
     if (!merges) groups.join(a, b);
   }
-  group_ = groups.roots();
-  behind_ = group_[source];
-  ahead_ = group_[sink];
+  const std::vector<Index> group = groups.roots();
   kept_.clear();
   for (std::size_t l = 0; l < loops_.size(); ++l) {
-    if (group_[behind(loops_[l])] != group_[ahead(loops_[l])]) {
-      kept_.push_back(static_cast<Index>(l));
-    }
+    if (group[behind(loops_[l])] != group[ahead(loops_[l])]) kept_.push_back(static_cast<Index>(l));
+  }
+  for (Index p = 0; p < points; ++p) {
+    const Index own = group[piece_[p]];
+    side_[p] = own == group[source] ? CutSide::behind : (own == group[sink] ? CutSide::ahead : CutSide::outside);
   }
   return kept_;
 }
 
-CutSide PlaneCut::side_of(Index point) const {
-  const Index group = group_[piece_[point]];
-  return group == behind_ ? CutSide::behind : (group == ahead_ ? CutSide::ahead : CutSide::outside);
+std::vector<CutSide> PlaneCut::sides_of_plane() const {
+  assert(!side_.empty());
+  std::vector<CutSide> sides(part_.size());
+  for (std::size_t i = 0; i < part_.size(); ++i) {
+    const auto& corners = triangles_.col(part_[i]);
+    const CutSide a = side_[corners[0]], b = side_[corners[1]], c = side_[corners[2]];
+    sides[i] = a == b || a == c ? a : b;
+  }
+  return sides;
 }
 
 std::vector<CutSide> PlaneCut::sides(double band) const {
-  assert(behind_ >= 0);
-  // By the plane first: a crossed triangle goes with two of its corners.
-  std::vector<CutSide> result;
-  result.reserve(part_.size());
+  std::vector<CutSide> result = sides_of_plane();
   std::vector<Index> near, place_in_part;
-  for (const Index t : part_) {
-    const CutSide a = side_of(triangles_(0, t)), b = side_of(triangles_(1, t)), c = side_of(triangles_(2, t));
-    result.push_back(a == b || a == c ? a : b);
-    double low = distance_[triangles_(0, t)], high = low;
-    for (const Index corner : triangles_.col(t)) {
-      low = std::min(low, distance_[corner]);
-      high = std::max(high, distance_[corner]);
-    }
-    if (result.back() != CutSide::outside && low <= band && high >= -band) {
-      near.push_back(t);
-      place_in_part.push_back(static_cast<Index>(result.size()) - 1);
-    }
+  for (std::size_t i = 0; i < part_.size(); ++i) {
+    const auto& corners = triangles_.col(part_[i]);
+    const double a = distance_[corners[0]], b = distance_[corners[1]], c = distance_[corners[2]];
+    const bool beside = std::min(a, std::min(b, c)) > band || std::max(a, std::max(b, c)) < -band;
+    if (beside || result[i] == CutSide::outside) continue;
+    near.push_back(part_[i]);
+    place_in_part.push_back(static_cast<Index>(i));
   }
 
   // Those that hang together with a loop that is cut.
-  const auto place = [&](Index t) {
-    return static_cast<Index>(std::lower_bound(near.begin(), near.end(), t) - near.begin());
-  };
   const std::vector<Side> edges = sorted_sides(triangles_, near);
   DisjointSets sets(static_cast<Index>(near.size()));
   for_each_run(edges, [&](auto first, auto last) {
-    for (auto next = first + 1; next != last; ++next) {
-      sets.join(place(first->triangle), place(next->triangle));
-    }
+    for (auto next = first + 1; next != last; ++next) sets.join(first->triangle, next->triangle);
   });
+  const std::vector<Index> set = sets.roots();
   std::vector<bool> is_fuzzy(near.size(), false);
-  for (const Index l : kept_) is_fuzzy[sets.find(place(loops_[l].triangles.front()))] = true;
-  const auto fuzzy = [&](Index t) { return is_fuzzy[sets.find(place(t))]; };
+  for (const Index l : kept_) {
+    const auto place = std::lower_bound(near.begin(), near.end(), loops_[l].triangles.front());
+    is_fuzzy[set[place - near.begin()]] = true;
+  }
+  const auto fuzzy = [&](std::size_t i) { return is_fuzzy[set[i]]; };
 
   std::vector<Terminal> nodes(near.size(), Terminal::none);
   std::vector<CutEdge> graph;
@@ -219,24 +218,24 @@ std::vector<CutSide> PlaneCut::sides(double band) const {
     if (last - first == 1) {
       // Beyond the band the surface goes on; within it, or across the plane, it ends.
       if (std::min(std::abs(distance_[a]), std::abs(distance_[b])) <= band) return;
-      if ((distance_[a] >= 0.0) != (distance_[b] >= 0.0)) return;
-      const bool is_source = side_of(a) == CutSide::behind;
-      nodes[place(first->triangle)] = is_source ? Terminal::source : Terminal::sink;
+      if (is_ahead(a) != is_ahead(b)) return;
+      const bool is_source = side_[a] == CutSide::behind;
+      nodes[first->triangle] = is_source ? Terminal::source : Terminal::sink;
       (is_source ? has_source : has_sink) = true;
       return;
     }
-    const auto& corners = triangles_.col(first->triangle);
-    const int at = corner_across(triangles_, first->triangle, a, b);
+    const auto& corners = triangles_.col(near[first->triangle]);
+    const int at = corner_across(triangles_, near[first->triangle], a, b);
     for (auto next = first + 1; next != last; ++next) {
       const double cost = cut_cost(points_.col(corners[(at + 1) % 3]), points_.col(corners[(at + 2) % 3]),
                                    points_.col(corners[at]), points_.col(next->opposite));
-      graph.push_back({place(first->triangle), place(next->triangle), cost});
+      graph.push_back({first->triangle, next->triangle, cost});
     }
   });
   if (!has_source || !has_sink) return result;
   const std::vector<bool> beyond = min_cut(nodes, graph);
   for (std::size_t i = 0; i < near.size(); ++i) {
-    if (fuzzy(near[i])) result[place_in_part[i]] = beyond[i] ? CutSide::ahead : CutSide::behind;
+    if (fuzzy(i)) result[place_in_part[i]] = beyond[i] ? CutSide::ahead : CutSide::behind;
   }
   return result;
 }

@@ -34,8 +34,13 @@ class PlaneCut {
 
   /// Chooses the loops to cut along: `first`, and of the others, in order, those without which the
   /// two parts that `first` separates would be one. What the part's other components are is
-  /// outside. Returns the loops, ascending.
-  const std::vector<Index>& separate(Index first);
+  /// outside. Returns the loops, ascending. connected: the part is one component; a single loop
+  /// then parts it as the plane does, and nothing is searched.
+  const std::vector<Index>& separate(Index first, bool connected = false);
+
+  /// The side of every triangle of the part after `separate` as the plane itself has it: a crossed
+  /// one goes with two of its corners.
+  std::vector<CutSide> sides_of_plane() const;
 
   /// The side of every triangle of the part after `separate`, along the cheapest boundary through
   /// the triangles within `band` of the plane that hang together with the loops: edges cost their
@@ -44,8 +49,8 @@ class PlaneCut {
   std::vector<CutSide> sides(double band) const;
 
  private:
-  CutSide side_of(Index point) const;
-  bool crossed(Index triangle) const;
+  bool is_ahead(Index point) const { return ahead_[point] != 0; }
+  bool is_crossed(Index triangle) const;
   void find_loops();
   void find_pieces();
   /// Pieces that a loop joins: points that hang together on one side of the plane.
@@ -57,10 +62,10 @@ class PlaneCut {
   const Triangles& triangles_;
   std::span<const Index> part_;
   std::span<const double> distance_;
-  std::vector<Index> piece_;  ///< of every point, after `separate`
+  std::vector<std::uint8_t> ahead_;  ///< whether a point is; bytes, which a triangle's corners read quickly
   std::vector<CutLoop> loops_;
-  std::vector<Index> group_;  ///< of every piece after `separate`
-  Index behind_ = -1, ahead_ = -1;
+  std::vector<Index> piece_;   ///< of every point, after `separate`
+  std::vector<CutSide> side_;  ///< of every point, after `separate`
   std::vector<Index> kept_;
 };
 

@@ -53,13 +53,52 @@ void label_points(const Triangles& triangles, Index points, Region& region) {
   for (Index& label : region.of_point) label = std::max(label, kStaticLabel);
 }
 
+/// A bit a label.
+using LabelSet = std::uint8_t;
+constexpr LabelSet kStaticBit = 1u << kStaticLabel, kRigidBit = 1u << kFirstRigidLabel;
+bool is_one_label(LabelSet around) { return (around & (around - 1)) == 0; }
+bool at_static(LabelSet around) { return (around & kStaticBit) != 0 && !is_one_label(around); }
+bool at_rigid(LabelSet around) { return (around & kRigidBit) != 0 && !is_one_label(around); }
+
+double area_of(const SeenShape& shape, Index triangle) {
+  const auto& corners = shape.triangles.col(triangle);
+  const Eigen::Vector3d a = shape.view.col(corners[0]);
+  return 0.5 * (shape.view.col(corners[1]) - a).cross(shape.view.col(corners[2]) - a).norm();
+}
+
+/// A point of the component, of those that hang together, that the stroke lies on.
+Index component_of_stroke(const SeenShape& shape, const LaidStroke& stroke, const std::vector<Index>& component) {
+  std::vector<Index> met;
+  for (const std::vector<Hit>& hits : stroke.hits) {
+    if (!hits.empty()) met.push_back(component[shape.triangles(0, hits.front().triangle)]);
+  }
+  if (!met.empty()) {
+    std::sort(met.begin(), met.end());
+    Index best = met.front();
+    std::ptrdiff_t most = 0;
+    for (auto first = met.begin(); first != met.end();) {
+      const auto last = std::upper_bound(first, met.end(), *first);
+      if (last - first > most) most = last - first, best = *first;
+      first = last;
+    }
+    return best;
+  }
+  double nearest = kInfinity;
+  Index best = 0;
+  for (const Index p : shape.triangles.reshaped()) {
+    const Eigen::Vector2d xy = shape.view.col(p).head<2>();
+    const double distance = (xy - stroke.curve.point(stroke.curve.nearest(xy))).squaredNorm();
+    if (distance < nearest) nearest = distance, best = p;
+  }
+  return component[best];
+}
+
 class RegionFinder {
  public:
-  RegionFinder(const SeenShape& shape, const LaidStroke& stroke)
-      : shape_(shape), stroke_(stroke), labels_(shape.triangles.cols(), kStaticLabel) {}
+  RegionFinder(const SeenShape& shape, const LaidStroke& stroke, std::span<const Index> component)
+      : shape_(shape), stroke_(stroke), component_(component), labels_(shape.triangles.cols(), kStaticLabel) {}
 
   Result<Region> find(std::span<const Polyline> partitions) {
-    label_component();
     cut_ends();
     keep_ends_apart();
     for (std::size_t i = 0; i < partitions.size(); ++i) {
@@ -71,27 +110,7 @@ class RegionFinder {
     return checked_region();
   }
 
-  bool more_beyond_end() {
-    label_component();
-    const std::vector<Index> part = with_label(labels_, kRegionLabel);
-    const EndCutter cutter(shape_, stroke_, part);
-    const EndCut all{0.0, std::vector<bool>(part.size(), true)};
-    const double more = area_off(cutter.end(), part) - area_off(cutter.start(), part);
-    return more > kClearlyMore * area_off(all, part);
-  }
-
  private:
-  double area_off(const EndCut& cut, const std::vector<Index>& part) const {
-    double area = 0.0;
-    for (std::size_t i = 0; i < cut.off.size(); ++i) {
-      if (!cut.off[i]) continue;
-      const auto& corners = shape_.triangles.col(part[i]);
-      const Eigen::Vector3d a = shape_.view.col(corners[0]);
-      area += 0.5 * (shape_.view.col(corners[1]) - a).cross(shape_.view.col(corners[2]) - a).norm();
-    }
-    return area;
-  }
-
   /// How far along the stroke what moves reaches, or enough: the nearest places of all points take
   /// their time.
   double reach_of(const Region& region) const {
@@ -123,58 +142,25 @@ class RegionFinder {
     return region;
   }
 
-  void label_component() {
-    const std::vector<Index> component = connected_points(shape_.triangles, static_cast<Index>(shape_.view.cols()));
-    const Index mine = component_of_stroke(component);
-    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
-      if (component[shape_.triangles(0, t)] == mine) labels_[t] = kRegionLabel;
-    }
-  }
-
-  /// The component most pixels of the stroke meet first, or else that of the point nearest to the
-  /// stroke in the picture.
-  Index component_of_stroke(const std::vector<Index>& component) const {
-    std::vector<Index> met;
-    for (const std::vector<Hit>& hits : stroke_.hits) {
-      if (!hits.empty()) met.push_back(component[shape_.triangles(0, hits.front().triangle)]);
-    }
-    if (!met.empty()) {
-      std::sort(met.begin(), met.end());
-      Index best = met.front();
-      std::ptrdiff_t most = 0;
-      for (auto first = met.begin(); first != met.end();) {
-        const auto last = std::upper_bound(first, met.end(), *first);
-        if (last - first > most) most = last - first, best = *first;
-        first = last;
-      }
-      return best;
-    }
-    double nearest = kInfinity;
-    Index best = 0;
-    for (const Index p : shape_.triangles.reshaped()) {
-      const Eigen::Vector2d xy = shape_.view.col(p).head<2>();
-      const double distance = (xy - stroke_.curve.point(stroke_.curve.nearest(xy))).squaredNorm();
-      if (distance < nearest) nearest = distance, best = p;
-    }
-    return component[best];
-  }
-
   void cut_ends() {
-    const std::vector<Index> part = with_label(labels_, kRegionLabel);
-    const EndCutter cutter(shape_, stroke_, part);
+    const EndCutter cutter(shape_, stroke_, component_);
     const EndCut start = cutter.limb_start(), end = cutter.limb_end();
     start_ = start.s;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const bool before = !start.off.empty() && start.off[i], beyond = !end.off.empty() && end.off[i];
-      if (before != beyond) labels_[part[i]] = before ? kStaticLabel : kFirstRigidLabel;
+    for (std::size_t i = 0; i < component_.size(); ++i) {
+      const bool before = !start.sides.empty() && start.sides[i] == CutSide::behind;
+      const bool beyond = !end.sides.empty() && end.sides[i] == CutSide::ahead;
+      labels_[component_[i]] = before == beyond ? kRegionLabel : (before ? kStaticLabel : kFirstRigidLabel);
     }
   }
 
   /// Where planes cross, or a ring is cut by one of them only, static and rigid part would meet: what
   /// of the rigid one is nearer to the static one than the gap joins the region.
   void keep_ends_apart() {
-    const std::vector<double> distance = distances_from_static(kLeastGap * stroke_.curve.length());
-    for (Index t = 0; t < shape_.triangles.cols(); ++t) {
+    const double gap = kLeastGap * stroke_.curve.length();
+    const std::vector<LabelSet> around = labels_around_points();
+    if (!borders_are_within(gap, around)) return;
+    const std::vector<double> distance = distances_from_static(gap, around);
+    for (const Index t : component_) {
       if (labels_[t] != kFirstRigidLabel) continue;
       for (const Index p : shape_.triangles.col(t)) {
         if (distance[p] < kInfinity) labels_[t] = kRegionLabel;
@@ -182,21 +168,48 @@ class RegionFinder {
     }
   }
 
+  /// Of the triangles around every point of the component, before partitions.
+  std::vector<LabelSet> labels_around_points() const {
+    std::vector<LabelSet> around(shape_.view.cols(), LabelSet{0});
+    for (const Index t : component_) {
+      const auto label = static_cast<LabelSet>(1u << labels_[t]);
+      for (const Index p : shape_.triangles.col(t)) around[p] |= label;
+    }
+    return around;
+  }
+
+  /// Whether a path between static and rigid part may be as short as `reach`: no path is shorter than
+  /// the way between the boxes of what lies beside the one and at the other.
+  bool borders_are_within(double reach, const std::vector<LabelSet>& around) const {
+    Eigen::AlignedBox3d static_border, rigid_border;
+    for (const Index t : component_) {
+      const auto& corners = shape_.triangles.col(t);
+      const LabelSet a = around[corners[0]], b = around[corners[1]], c = around[corners[2]];
+      if (a == b && a == c && is_one_label(a)) continue;  // as most are
+      const bool beside = at_static(a) || at_static(b) || at_static(c);
+      for (const Index p : corners) {
+        if (beside) static_border.extend(shape_.view.col(p));
+        if (at_rigid(around[p])) rigid_border.extend(shape_.view.col(p));
+      }
+    }
+    if (static_border.isEmpty() || rigid_border.isEmpty()) return false;
+    return static_border.exteriorDistance(rigid_border) <= reach;
+  }
+
   /// Of the points beside the static part along edges, as far as `reach`, and 0 over one edge
   /// however long it is; infinite beyond.
-  std::vector<double> distances_from_static(double reach) const {
+  std::vector<double> distances_from_static(double reach, const std::vector<LabelSet>& around) const {
     const Triangles& triangles = shape_.triangles;
     const auto points = static_cast<Index>(shape_.view.cols());
-    const std::vector<bool> is_static = corners_of([&](Index t) { return labels_[t] == kStaticLabel; });
-    const std::vector<bool> moves = corners_of([&](Index t) { return labels_[t] != kStaticLabel; });
-    const std::vector<bool> beside = corners_of([&](Index t) { return touches(t, is_static) && touches(t, moves); });
     std::vector<double> distance(points, kInfinity);
     for (Index p = 0; p < points; ++p) {
-      if (is_static[p] && moves[p]) distance[p] = 0.0;
+      if (at_static(around[p])) distance[p] = 0.0;
     }
     spread_distances(shape_.view, triangles, triangles_of_points(triangles, points), reach, distance);
-    for (Index p = 0; p < points; ++p) {
-      if (beside[p]) distance[p] = 0.0;
+    for (const Index t : component_) {
+      const auto& corners = triangles.col(t);
+      if (std::none_of(corners.begin(), corners.end(), [&](Index p) { return at_static(around[p]); })) continue;
+      for (const Index p : corners) distance[p] = 0.0;
     }
     return distance;
   }
@@ -293,14 +306,35 @@ class RegionFinder {
 
   const SeenShape& shape_;
   const LaidStroke& stroke_;
+  std::span<const Index> component_;
   std::vector<Index> labels_;
   double start_ = 0.0;
 };
 
 }  // namespace
 
-bool more_beyond_end(const SeenShape& shape, const LaidStroke& stroke) {
-  return RegionFinder(shape, stroke).more_beyond_end();
+std::vector<Index> component_under(const SeenShape& shape, const LaidStroke& stroke) {
+  const std::vector<Index> component = connected_points(shape.triangles, static_cast<Index>(shape.view.cols()));
+  const Index mine = component_of_stroke(shape, stroke, component);
+  std::vector<Index> triangles;
+  triangles.reserve(shape.triangles.cols());
+  for (Index t = 0; t < shape.triangles.cols(); ++t) {
+    if (component[shape.triangles(0, t)] == mine) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+bool more_beyond_end(const SeenShape& shape, const LaidStroke& stroke, std::span<const Index> component) {
+  const EndCutter cutter(shape, stroke, component);
+  const std::vector<CutSide> start = cutter.sides_of_plane(0.0), end = cutter.sides_of_plane(1.0);
+  double more = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < component.size(); ++i) {
+    const double area = area_of(shape, component[i]);
+    all += area;
+    if (!end.empty() && end[i] == CutSide::ahead) more += area;
+    if (!start.empty() && start[i] == CutSide::behind) more -= area;
+  }
+  return more > kClearlyMore * all;
 }
 
 bool runs_to_static(const SeenShape& shape, const PlaneCurve& curve, const Region& region) {
@@ -318,8 +352,9 @@ bool runs_to_static(const SeenShape& shape, const PlaneCurve& curve, const Regio
   return count[0] > 0 && count[1] > 0 && place[0] * count[1] > place[1] * count[0];
 }
 
-Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Polyline> partitions) {
-  return RegionFinder(shape, stroke).find(partitions);
+Result<Region> choose_region(const SeenShape& shape, const LaidStroke& stroke, std::span<const Index> component,
+                             std::span<const Polyline> partitions) {
+  return RegionFinder(shape, stroke, component).find(partitions);
 }
 
 std::optional<std::array<Index, 2>> torn_edge(const Triangles& triangles, std::span<const Index> of_point) {

@@ -87,4 +87,8 @@ Stroke without_start(const Stroke& stroke, double share) {
   return resampled(rest, static_cast<Index>(stroke.cols()));
 }
 
+Stroke from_held_end(const Stroke& drawn, bool held_at_end) {
+  return held_at_end ? Stroke(drawn.rowwise().reverse()) : drawn;
+}
+
 }  // namespace pliant
