@@ -85,7 +85,10 @@ Index component_of_stroke(const SeenShape& shape, const LaidStroke& stroke, cons
   }
   double nearest = kInfinity;
   Index best = 0;
+  std::vector<bool> seen(shape.view.cols(), false);
   for (const Index p : shape.triangles.reshaped()) {
+    if (seen[p]) continue;
+    seen[p] = true;
     const Eigen::Vector2d xy = shape.view.col(p).head<2>();
     const double distance = (xy - stroke.curve.point(stroke.curve.nearest(xy))).squaredNorm();
     if (distance < nearest) nearest = distance, best = p;

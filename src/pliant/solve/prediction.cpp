@@ -10,14 +10,27 @@ namespace {
 /// So many points of a handle, evenly picked, tell its turn well enough.
 constexpr std::size_t kEnoughForTurn = 250;
 
-void follow_rigidly(const Points& targets, Start& start) {
+bool anything_floats(const Start& start) {
+  for (Index part = 0; part < start.part_count(); ++part) {
+    if (start.floats(part)) return true;
+  }
+  return false;
+}
+
+void follow_rigidly(const std::vector<Handle>& handles, Start& start) {
+  if (!anything_floats(start)) return;
   std::vector<RigidFit> fits(start.part_count());
   std::vector<bool> asked(start.part_count(), false);
-  for (Index moved = 0; moved < targets.cols(); ++moved) {
-    const Index part = start.part_of(moved);
-    if (part < 0 || !start.floats(part)) continue;
-    fits[part].add(start.standing(moved), targets.col(moved));
-    asked[part] = true;
+  Index moved = 0;
+  for (const Handle& handle : handles) {
+    for (const auto& target : handle.targets.colwise()) {
+      const Index part = start.part_of(moved);
+      if (part >= 0 && start.floats(part)) {
+        fits[part].add(start.standing(moved), target);
+        asked[part] = true;
+      }
+      ++moved;
+    }
   }
   std::vector<Start::PartMotion> motions;
   for (Index part = 0; part < start.part_count(); ++part) {
@@ -46,7 +59,7 @@ std::vector<Eigen::Vector3d> shown_turns(const std::vector<Handle>& handles, con
 
 void predict(Constraints& constraints, Start& start) {
   ToldTurns told = constraints.take_turns();
-  if (!told.beyond_half_turn) follow_rigidly(constraints.targets(), start);
+  if (!told.beyond_half_turn) follow_rigidly(constraints.handles(), start);
   // Where no turn is told beyond what the points show, the points know better: the shape may lag.
   const std::vector<Eigen::Vector3d> turns =
       told.beyond_half_turn ? std::move(told.of_handle) : shown_turns(constraints.handles(), start);
