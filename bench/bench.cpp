@@ -26,8 +26,8 @@ double median_ms(int runs, const std::function<void()>& call) {
   return median(std::move(durations));
 }
 
-std::vector<Bench::Run>& Bench::all() {
-  static std::vector<Run> benches;
+std::vector<Bench::Function>& Bench::all() {
+  static std::vector<Function> benches;
   return benches;
 }
 

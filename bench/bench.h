@@ -31,9 +31,9 @@ class Reporter {
 ///   const Bench bench(bench_arap);
 class Bench {
  public:
-  using Run = void (*)(const Reporter& reporter);
-  explicit Bench(Run run) { all().push_back(run); }
-  static std::vector<Run>& all();
+  using Function = void (*)(const Reporter& reporter);
+  explicit Bench(Function function) { all().push_back(function); }
+  static std::vector<Function>& all();
 };
 
 }  // namespace pliant::bench

@@ -35,10 +35,10 @@ struct SurfaceScene {
   void grab(Deformer& deformer) const {
     if (!deformer.set_fixed(fixed).ok() || !deformer.add_handle(moved).ok()) std::abort();
   }
-  void drag(Deformer& deformer, double share = 1.0) const {
+  void drag(Deformer& deformer, double fraction = 1.0) const {
     Motion now = motion;
-    now.angle *= share;
-    now.translation *= share;
+    now.angle *= fraction;
+    now.translation *= fraction;
     if (!deformer.move_handle(1, now).ok()) std::abort();
   }
 };

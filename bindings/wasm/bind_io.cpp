@@ -19,9 +19,9 @@ struct BytesValue {
   val bytes = val::undefined();
 };
 
-struct ShareValue {
+struct FractionValue {
   StatusValue status;
-  double share = 0.0;
+  double fraction = 0.0;
 };
 
 struct PointsValue {
@@ -36,9 +36,9 @@ class BoundDocument {
     const Result<io::FileFormat> known = io::format_from_name(format);
     return to_value(known.ok() ? document_.begin(*known, scratch.take_bytes()) : known.status());
   }
-  ShareValue advance() {
-    const Result<double> share = document_.advance();
-    return {to_value(share.status()), share.ok() ? *share : 0.0};
+  FractionValue advance() {
+    const Result<double> fraction = document_.advance();
+    return {to_value(fraction.status()), fraction.ok() ? *fraction : 0.0};
   }
   StatusValue assign(const Scratch& scratch) {
     return to_value(document_.assign(scratch.doubles(), scratch.integers()));
@@ -107,9 +107,9 @@ EMSCRIPTEN_BINDINGS(pliant_io) {
   emscripten::value_object<BytesValue>("RawBytes")
       .field("status", &BytesValue::status)
       .field("bytes", &BytesValue::bytes);
-  emscripten::value_object<ShareValue>("RawShare")
-      .field("status", &ShareValue::status)
-      .field("share", &ShareValue::share);
+  emscripten::value_object<FractionValue>("RawFraction")
+      .field("status", &FractionValue::status)
+      .field("fraction", &FractionValue::fraction);
   emscripten::value_object<PointsValue>("RawPoints")
       .field("status", &PointsValue::status)
       .field("points", &PointsValue::points);

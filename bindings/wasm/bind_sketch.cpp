@@ -73,7 +73,7 @@ class BoundSketch final : public BoundDeformation {
   StatusValue set_morph(double t) { return to_value(sketch_->set_morph(t)); }
 
   std::string pose(Scratch& scratch) const { return stage(named_pose(sketch_->pose()), scratch); }
-  /// A pose, or what lies the share t of the way to another one, whose names begin with "toward/".
+  /// A pose, or what lies the part t of the way to another one, whose names begin with "toward/".
   StatusValue set_pose(const std::string& names, const Scratch& scratch, double t) {
     NamedValues given, other;
     for (NamedValue& value : named_values(names, scratch)) {

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "pliant/core/message.h"
+
 namespace pliant::bindings {
 
 NamedValues named_values(const std::string& names, const Scratch& scratch) {
@@ -27,10 +29,8 @@ std::string stage(const NamedValues& values, Scratch& scratch) {
   std::string names;
   std::vector<double> numbers;
   for (const NamedValue& value : values) {
-    names += value.name;
-    names += value.word.empty() ? ' ' : '=';
-    names += value.word.empty() ? std::to_string(value.numbers.size()) : value.word;
-    names += '\n';
+    names += value.word.empty() ? message({value.name, " ", value.numbers.size(), "\n"})
+                                : message({value.name, "=", value.word, "\n"});
     numbers.insert(numbers.end(), value.numbers.begin(), value.numbers.end());
   }
   scratch.set_doubles(std::move(numbers));

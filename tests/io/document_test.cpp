@@ -272,7 +272,7 @@ TEST_CASE("colours go from format to format, every byte as it was") {
         "colors has 5 numbers; expected 3 for each of 256 vertices");
 }
 
-TEST_CASE("in pieces: the share grows to 1, the document before stays until then, the result is that of one read") {
+TEST_CASE("in pieces: the fraction grows to 1, the document before stays until then, the result is that of one read") {
   std::string file;
   for (int v = 0; v < 150'000; ++v) file += "v 1.5 " + std::to_string(v) + " 3\n";
   file += "f 1 2 3 150000\n";
@@ -280,13 +280,13 @@ TEST_CASE("in pieces: the share grows to 1, the document before stays until then
   REQUIRE(document.begin(FileFormat::obj, test::bytes_of(file)).ok());
   double before = 0.0;
   int pieces = 0;
-  for (double share = 0.0; share < 1.0; ++pieces) {
+  for (double fraction = 0.0; fraction < 1.0; ++pieces) {
     CHECK(document.mesh().vertex_count() == 6);
     const Result<double> advanced = document.advance();
     REQUIRE(advanced.ok());
-    share = *advanced;
-    CHECK(share > before);
-    before = share;
+    fraction = *advanced;
+    CHECK(fraction > before);
+    before = fraction;
   }
   CHECK(pieces > 3);
   CHECK(document.mesh().positions == read(FileFormat::obj, file).mesh().positions);

@@ -2,7 +2,7 @@
 
 import { Worker } from "node:worker_threads";
 import { describe, expect, it, vi } from "vitest";
-import { editCases } from "./support/edits.js";
+import { editCases, methodNames } from "./support/edits.js";
 import { half, script } from "./support/edit_script.js";
 import { limb } from "./support/limb.js";
 import { entries, errorOf, pliant } from "./support/package.js";
@@ -207,7 +207,7 @@ describe("what a change costs", () => {
     return [costs(edit) - before[0], analyses(edit) - before[1]];
   };
 
-  it.each(["embedded-graph", "edge-material", "arap"])("follows the table: %s", (method) => {
+  it.each(methodNames)("follows the table: %s", (method) => {
     const { step, moved, held } = editCases[method] as unknown as Record<string, Record<string, unknown>>;
     expect(cost(step, moved)).toEqual([0, 0]);
     expect(cost(step, { ...step, solve: { iterations: 500, tolerance: 1e-10 } })).toEqual([0, 0]);
@@ -544,7 +544,7 @@ describe("key frames", () => {
     };
   };
 
-  it.each(["embedded-graph", "edge-material", "arap"])(
+  it.each(methodNames)(
     "are documents in turn over one edit, each as if it were alone: %s",
     async (method) => {
       const { at, script: animation } = frames(method);

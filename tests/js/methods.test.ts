@@ -117,14 +117,29 @@ describe("pliant.methods", () => {
       expect(option.default).toBeGreaterThanOrEqual(option.min);
       expect(option.default).toBeLessThanOrEqual(option.max!);
     }
-    expect(rows.filter(({ option }) => option.limit === "vertices").map(({ name }) => name)).toEqual(["nodeCount"]);
-    expect(() => build("embedded-graph", { nodeCount: vertices + 1 })).toThrow(`from 1 to ${vertices}`);
+    const counts = rows.filter(({ option }) => option.limit === "vertices");
+    expect(counts.map(({ name }) => name)).toContain("nodeCount");
+    for (const { method, name } of counts) {
+      expect(() => build(method.name, { [name]: vertices + 1 })).toThrow(`to ${vertices}`);
+    }
   });
 
   it("is the same in a worker", async () => {
     const worker = await entries.worker.init();
     expect(worker.methods).toEqual(pliant.methods);
     worker.dispose();
+  });
+});
+
+describe("the words about states", () => {
+  const text = readFileSync(new URL("../../docs/state-and-report.md", import.meta.url), "utf8");
+  const words = (part: string) => new Set(part.match(/\w+/g));
+  const ofAll = /- All solvers:[^]*?(?=\n- )/.exec(text)![0];
+
+  it.each(pliant.methods.map(({ name }) => name))("name the fields of %s", (name) => {
+    const own = new RegExp(`\\n- \`${name}\`:[^]*?(?=\\n- |$)`).exec(text)?.[0] ?? "";
+    const known = words(ofAll + own);
+    for (const field of Object.keys(build(name, {}).state())) expect(known).toContain(field);
   });
 });
 

@@ -105,8 +105,8 @@ export class App {
       session, present, viewport, view,
       pick: (x, y) => this.pick(x, y),
       radius: () => this.toolbar.size * this.box.diagonal,
-      preview: (still) => {
-        view.paint(present.doc, still);
+      preview: (unmoved) => {
+        view.paint(present.doc, unmoved);
         viewport.invalidate();
       },
       ink: (points) => this.strokes.draw(points),

@@ -147,7 +147,7 @@ export interface RawSketch extends RawDeformation {
   setMorph(t: number): RawStatus;
   /** heading, turns, length, twist, scale. */
   pose(scratch: RawScratch): RawNames;
-  /** A pose, or what lies the share t of the way to another one, whose names begin with "toward/". */
+  /** A pose, or what lies the part t of the way to another one, whose names begin with "toward/". */
   setPose(pose: RawNames, scratch: RawScratch, t: number): RawStatus;
   /** integers: the input's triangles. */
   refine(scratch: RawScratch, maxAdded: number): RawStatus;
@@ -200,8 +200,8 @@ export interface RawDocument extends RawObject {
    * `advance`.
    */
   begin(format: string, scratch: RawScratch): RawStatus;
-  /** Reads a piece of it; `share` 1: all is read. */
-  advance(): { status: RawStatus; share: number };
+  /** Reads a piece of it; `fraction` 1: all is read. */
+  advance(): { status: RawStatus; fraction: number };
   positions(): Float64Array; // 3 n
   /** Polygons as a flat list of vertex ids, and where each begins: faceOffsets has faces + 1 entries. */
   faceVertices(): Uint32Array;

@@ -5,7 +5,7 @@ import type { Owned } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { RawDeformer, RawStatus } from "../boundary/raw.js";
 import { insideOf, type Shape } from "../shape/shape.js";
-import { applyMatrix, centroidOf, packMotion, readTransform, type Transform } from "../shape/transform.js";
+import { applyMatrix, centroidOf, packTransform, readTransform, type Transform } from "../shape/transform.js";
 
 /** Made by `deformer.addHandle`. */
 export class Handle {
@@ -36,13 +36,13 @@ export class Handle {
    */
   move(transform: Transform): void {
     const { dimension } = this.#shape;
-    const motion = readTransform(new Place("invalid-handle", "transform"), transform, dimension);
+    const checked = readTransform(new Place("invalid-handle", "transform"), transform, dimension);
     const rest = this.#rest();
-    if (motion.kind === "matrix") {
-      this.#setTargets(applyMatrix(motion.matrix, rest, dimension));
+    if (checked.kind === "matrix") {
+      this.#setTargets(applyMatrix(checked.matrix, rest, dimension));
       return;
     }
-    const packed = packMotion(motion, centroidOf(rest, dimension));
+    const packed = packTransform(checked, centroidOf(rest, dimension));
     this.#call((raw) => raw.moveHandle(this.#id, ...this.#deformer.core.stageValues(packed)));
   }
 

@@ -72,7 +72,7 @@ export interface SketchState {
   target: number[][];
   /** Of the planes of the curves, one a side. */
   normals: number[][];
-  /** The whole pose, as `pose()` gives it, and the share of the way to it that is shown. */
+  /** The whole pose, as `pose()` gives it, and the part of the way to it that is shown. */
   pose: SketchPose;
   morph: number;
   /** With a mirror: 0 for a vertex of the drawn side, 1 for one of the mirrored. */
@@ -178,8 +178,8 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
 
   /** Shows the way from rest (0) to the pose (1) by lengths and angles. Errors: invalid-option. */
   morph(t: number): void {
-    const share = fraction(option("morph"), t);
-    this.owned.accept((raw) => raw.setMorph(share));
+    const checked = fraction(option("morph"), t);
+    this.owned.accept((raw) => raw.setMorph(checked));
   }
 
   /** The whole pose, to be kept and set again. */
@@ -188,14 +188,14 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
   }
 
   /**
-   * Sets a pose, or what lies the share t of the way `toward` another. Its spline controls are in it: they return to
+   * Sets a pose, or what lies the part t of the way `toward` another. Its spline controls are in it: they return to
    * the identity. Errors: invalid-option.
    */
   setPose(pose: SketchPose, toward?: SketchPose, t = 0): void {
     const from = readPose(option("pose"), pose);
     const to = toward === undefined ? {} : readPose(option("toward"), toward, "toward/");
-    const share = fraction(option("t"), t);
-    this.owned.accept((raw) => raw.setPose(...this.owned.core.stageValues({ ...from, ...to }), share));
+    const checked = fraction(option("t"), t);
+    this.owned.accept((raw) => raw.setPose(...this.owned.core.stageValues({ ...from, ...to }), checked));
   }
 
   // -- Refinement. ----------------------------------------------------------------------------------

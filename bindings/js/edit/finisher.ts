@@ -58,14 +58,14 @@ export class Finisher {
     const { tolerance, iterations } = this.plan;
     const spent = (before: number) =>
       this.solving.progress.slice(0, before).reduce((sum, phase) => sum + phase.iterations.length, 0);
-    const begin = (share: number) => () => {
-      this.sketch.morph(share * morph);
+    const begin = (t: number) => () => {
+      this.sketch.morph(t * morph);
       this.#handle.moveTo(this.#seed().targets);
     };
     const way = wayTo(this.sketch.pose());
     const left = (at: number) => Math.max(1, iterations - spent(at));
-    const parts = way.map((share, i) => ({
-      tolerance, begin: begin(share), get iterations() { return Math.min(iterationsOnTheWay, left(i)); },
+    const parts = way.map((t, i) => ({
+      tolerance, begin: begin(t), get iterations() { return Math.min(iterationsOnTheWay, left(i)); },
     }));
     return [...parts, { tolerance, begin: begin(1), get iterations() { return left(way.length); } }];
   }

@@ -80,7 +80,7 @@ function stepsAt(keyframes: Keyframe[], time: number): StepPlan[] {
 
 /** Of two steps that differ in goals or poses only. */
 function stepBetween(a: StepPlan, b: StepPlan, u: number): StepPlan {
-  if (a.kind === "sketch" && b.kind === "sketch") return { ...a, toward: { pose: b.pose, share: u } };
+  if (a.kind === "sketch" && b.kind === "sketch") return { ...a, toward: { pose: b.pose, t: u } };
   if (a.kind === "solver" && b.kind === "solver") {
     return {
       ...a, handles: a.handles.map((handle, h) => ({ ...handle, goal: between(handle.goal, b.handles[h].goal, u) })),

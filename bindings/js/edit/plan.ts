@@ -75,8 +75,8 @@ export interface SketchPlan extends Planned<"sketch"> {
   sketch: SketchOptions;
   region: DrawnRegion | undefined;
   pose: PosePlan;
-  /** Between keyframes: the pose to come, and the share of the way to it. */
-  toward: { pose: PosePlan; share: number } | undefined;
+  /** Between keyframes: the pose to come, and which part t of the way to it. */
+  toward: { pose: PosePlan; t: number } | undefined;
   refine: { maxAdded?: number } | undefined;
   finish: FinishPlan | undefined;
 }

@@ -3,7 +3,7 @@
 import type { Place } from "../boundary/check.js";
 import type { Handle } from "../deform/handle.js";
 import { selectedIds } from "../shape/selection.js";
-import { applyMotion, centroidOf, readTransform } from "../shape/transform.js";
+import { applyTransform, centroidOf, readTransform } from "../shape/transform.js";
 import type { Goal, HandlePlan, PlacePlan, RegionPlan, SolverPlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
@@ -79,6 +79,6 @@ export function placed(
   { place, goal }: HandlePlan & { goal: Goal }, points: Float64Array, dimension: number,
 ): ArrayLike<number> {
   if ("targets" in goal) return goal.targets;
-  const motion = readTransform(place.at("move"), goal.move, dimension);
-  return applyMotion(motion, points, centroidOf(points, dimension), dimension);
+  const transform = readTransform(place.at("move"), goal.move, dimension);
+  return applyTransform(transform, points, centroidOf(points, dimension), dimension);
 }

@@ -257,8 +257,8 @@ function posed(sketch: Sketch, { place, pose, toward, refine }: SketchPlan): num
     const from = sketch.pose();
     sketch.reset();
     show(toward.pose);
-    sketch.setPose(from, sketch.pose(), toward.share);
-    morph += toward.share * (toward.pose.morph - morph);
+    sketch.setPose(from, sketch.pose(), toward.t);
+    morph += toward.t * (toward.pose.morph - morph);
   }
   sketch.morph(morph);
   if (refine) sketch.refine(refine);

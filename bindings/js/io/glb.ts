@@ -179,7 +179,7 @@ export class Glb {
       for (const primitive of primitives) {
         const own = primitive.getAttribute("COLOR_0");
         const factor = primitive.getMaterial()?.getBaseColorFactor() ?? [1, 1, 1];
-        if (!own && factor.slice(0, 3).every((share) => share === 1)) continue;
+        if (!own && factor.slice(0, 3).every((channel) => channel === 1)) continue;
         any = true;
         const color = [1, 1, 1, 1];
         for (const v of idsOf(primitive)) {

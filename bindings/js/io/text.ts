@@ -17,11 +17,11 @@ export function readText(io: IoModule, format: TextFormat, bytes: Uint8Array, pa
     const [document, scratch] = [free(new Document()), free(new Scratch())];
     put(scratch.bytes(bytes.length), bytes);
     accept(document.begin(format, scratch));
-    for (let share = 0; share < 1;) {
-      await pause(share);
+    for (let fraction = 0; fraction < 1;) {
+      await pause(fraction);
       const advanced = document.advance();
       accept(advanced.status);
-      share = advanced.share;
+      fraction = advanced.fraction;
     }
     return meshOf(document);
   });

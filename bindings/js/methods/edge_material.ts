@@ -83,7 +83,7 @@ function unpackField(name: string, values: RawValues, dimension: number): Materi
 }
 
 const stiffness = { min: 0.01, max: 1000, step: 0.1, log: true } as const;
-const share = { default: 1, min: 0, max: 1, step: 0.05 } as const;
+const acting = { default: 1, min: 0, max: 1, step: 0.05 } as const;
 
 export const edgeMaterial = method({
   name: "edge-material",
@@ -109,10 +109,10 @@ export const edgeMaterial = method({
       title: "Bend", default: 1, ...stiffness, max: 100, help: "Stiffness against bending, the paper's mu.",
     }),
     pStretch: number(fraction, {
-      title: "Stretch now", ...share, help: "The part of the stretch stiffness that acts; changing it costs nothing.",
+      title: "Stretch now", ...acting, help: "The part of the stretch stiffness that acts; changing it costs nothing.",
     }),
     pBend: number(fraction, {
-      title: "Bend now", ...share, help: "The part of the bend stiffness that acts; changing it costs nothing.",
+      title: "Bend now", ...acting, help: "The part of the bend stiffness that acts; changing it costs nothing.",
     }),
     gravity: vector({
       title: "Gravity", default: [0, 0, 0], min: 0, max: 3, step: 0.05,

@@ -14,7 +14,7 @@ export interface Transform {
 }
 
 /** A checked TRANSFORM, in space. */
-export type Motion = Steps | { kind: "matrix"; matrix: number[] };
+export type CheckedTransform = Steps | { kind: "matrix"; matrix: number[] };
 
 export interface Steps {
   kind: "steps";
@@ -25,7 +25,7 @@ export interface Steps {
   translate: number[];
 }
 
-export function readTransform(place: Place, value: unknown, dimension: number): Motion {
+export function readTransform(place: Place, value: unknown, dimension: number): CheckedTransform {
   const move = fields(place, value, ["scale", "rotate", "translate", "matrix"]);
   if (move.matrix !== undefined) {
     const others = Object.keys(move).filter((key) => key !== "matrix");
@@ -64,8 +64,8 @@ function readMatrix(place: Place, value: unknown, dimension: number): number[] {
   return m;
 }
 
-/** A motion as a RawDeformer takes it. */
-export function packMotion({ scale, axis, degrees, about, translate }: Steps, center: number[]): RawValues {
+/** One as a RawDeformer takes it. */
+export function packTransform({ scale, axis, degrees, about, translate }: Steps, center: number[]): RawValues {
   const angle = (degrees * Math.PI) / 180;
   // Without a scale the centre plays no part: as the origin it costs no rounding either.
   return {
@@ -73,10 +73,10 @@ export function packMotion({ scale, axis, degrees, about, translate }: Steps, ce
   };
 }
 
-/** Where a motion takes points, `dimension` numbers each; `center`: theirs, in space. */
-export function applyMotion(motion: Motion, points: Float64Array, center: number[], dimension: number): Float64Array {
-  if (motion.kind === "matrix") return applyMatrix(motion.matrix, points, dimension);
-  const { scale, axis, degrees, about = center, translate } = motion;
+/** Where it takes points, `dimension` numbers each; `center`: theirs, in space. */
+export function applyTransform(transform: CheckedTransform, points: Float64Array, center: number[], dimension: number): Float64Array {
+  if (transform.kind === "matrix") return applyMatrix(transform.matrix, points, dimension);
+  const { scale, axis, degrees, about = center, translate } = transform;
   const length = Math.hypot(...axis);
   const [sine, cosine] = [Math.sin((degrees * Math.PI) / 180), Math.cos((degrees * Math.PI) / 180)];
   const [x, y, z] = axis.map((a) => a / length);

@@ -7,20 +7,20 @@
 export class TangentFrames {
   readonly #triangles: Uint32Array;
   /** Of each corner of a triangle: its vertex's tangent = a (q - p) + b (r - p) over the triangle's p, q, r. */
-  readonly #shares: Float32Array;
+  readonly #coefficients: Float32Array;
 
   /** positions: three numbers a vertex. */
   constructor(positions: Float32Array, tangents: Float32Array, triangles: Uint32Array) {
     this.#triangles = triangles;
-    this.#shares = new Float32Array(2 * triangles.length);
+    this.#coefficients = new Float32Array(2 * triangles.length);
     for (let corner = 0; corner < triangles.length; ++corner) {
       const [u, v] = edges(positions, triangles, corner - (corner % 3));
       const t = tangents.subarray(4 * triangles[corner], 4 * triangles[corner] + 3);
       const [uu, uv, vv, ut, vt] = [dot(u, u), dot(u, v), dot(v, v), dot(u, t), dot(v, t)];
       const determinant = uu * vv - uv * uv;
       if (!(determinant > 0)) continue;
-      this.#shares[2 * corner] = (vv * ut - uv * vt) / determinant;
-      this.#shares[2 * corner + 1] = (uu * vt - uv * ut) / determinant;
+      this.#coefficients[2 * corner] = (vv * ut - uv * vt) / determinant;
+      this.#coefficients[2 * corner + 1] = (uu * vt - uv * ut) / determinant;
     }
   }
 
@@ -29,7 +29,7 @@ export class TangentFrames {
     const sums = new Float64Array(positions.length);
     for (let corner = 0; corner < this.#triangles.length; ++corner) {
       const [u, v] = edges(positions, this.#triangles, corner - (corner % 3));
-      const [a, b] = [this.#shares[2 * corner], this.#shares[2 * corner + 1]];
+      const [a, b] = [this.#coefficients[2 * corner], this.#coefficients[2 * corner + 1]];
       const at = 3 * this.#triangles[corner];
       for (let axis = 0; axis < 3; ++axis) sums[at + axis] += a * u[axis] + b * v[axis];
     }

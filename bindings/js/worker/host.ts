@@ -21,7 +21,7 @@ const init = makeInit(unnamed);
 const classes = { Pliant, Shape, Deformer, Handle, Sketch, Edit, Files } satisfies Record<ClassName, unknown>;
 const names = new Map<unknown, ClassName>(Object.entries(classes).map(([name, its]) => [its, name as ClassName]));
 
-type Method = (...args: unknown[]) => unknown;
+type Callable = (...args: unknown[]) => unknown;
 
 class Host {
   readonly #objects = new Map<number, object>();
@@ -73,7 +73,7 @@ class Host {
     if (!object) throw new PliantError("disposed", "the object is disposed; expected a live one");
     const { calls } = rowOf(names.get(object.constructor)!);
     if (!Object.hasOwn(calls, method)) throw new Error(`there is no method ${method}`);
-    return (object as Record<string, Method>)[method](...this.#arguments(call, calls[method]));
+    return (object as Record<string, Callable>)[method](...this.#arguments(call, calls[method]));
   }
 
   async #start(options: Parameters<typeof init>[0]): Promise<Pliant> {

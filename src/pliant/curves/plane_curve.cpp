@@ -22,7 +22,7 @@ std::vector<double> lengths_along(const Polyline& line) {
   return lengths;
 }
 
-/// Index and share of the segment of ascending `knots` in which x lies, walking on from `k`.
+/// Index and t of the segment of ascending `knots` in which x lies, walking on from `k`.
 double locate(const std::vector<double>& knots, double x, std::size_t& k) {
   while (k + 2 < knots.size() && knots[k + 1] < x) ++k;
   const double width = knots[k + 1] - knots[k];
@@ -40,9 +40,9 @@ Polyline at_places(const Polyline& line, const std::vector<double>& along, const
   Polyline result(2, static_cast<Index>(places.size()));
   std::size_t k = 0;
   for (Index i = 0; i < result.cols(); ++i) {
-    const double share = locate(along, places[i], k);
+    const double t = locate(along, places[i], k);
     const auto at = static_cast<Index>(k);
-    result.col(i) = (1.0 - share) * line.col(at) + share * line.col(at + 1);
+    result.col(i) = (1.0 - t) * line.col(at) + t * line.col(at + 1);
   }
   return result;
 }
@@ -84,8 +84,8 @@ Polyline resampled(const Polyline& line, Index nodes) {
     std::size_t k = 0;
     for (Index i = 1; i + 1 < nodes; ++i) {
       worst = std::max(worst, std::abs(chords[i] - step * i));
-      const double share = locate(chords, step * i, k);
-      moved[i] = (1.0 - share) * places[k] + share * places[k + 1];
+      const double t = locate(chords, step * i, k);
+      moved[i] = (1.0 - t) * places[k] + t * places[k + 1];
     }
     if (worst <= kEqualSteps * step) break;
     places = std::move(moved);
@@ -144,8 +144,8 @@ void PlaneCurve::derive() {
 Eigen::Vector2d PlaneCurve::point(double s) const {
   const double x = s * static_cast<double>(size() - 1);
   const Index i = std::clamp(static_cast<Index>(x), 0, size() - 2);
-  const double share = x - i;
-  return (1.0 - share) * nodes_.col(i) + share * nodes_.col(i + 1);
+  const double t = x - i;
+  return (1.0 - t) * nodes_.col(i) + t * nodes_.col(i + 1);
 }
 
 double PlaneCurve::nearest(const Eigen::Vector2d& p) const {
@@ -167,12 +167,12 @@ double PlaneCurve::nearest(const Eigen::Vector2d& p) const {
       const Eigen::Vector2d segment = nodes_.col(i + 1) - nodes_.col(i);
       const Eigen::Vector2d offset = p - nodes_.col(i);
       const double square = segment.squaredNorm();
-      const double share = square > 0.0 ? std::clamp(offset.dot(segment) / square, 0.0, 1.0) : 0.0;
-      const double distance = (offset - share * segment).squaredNorm();
+      const double t = square > 0.0 ? std::clamp(offset.dot(segment) / square, 0.0, 1.0) : 0.0;
+      const double distance = (offset - t * segment).squaredNorm();
       // Ties go to the smaller s, whatever the order of the search.
-      if (distance < best || (distance == best && i + share < place)) {
+      if (distance < best || (distance == best && i + t < place)) {
         best = distance;
-        place = i + share;
+        place = i + t;
       }
     }
   };

@@ -11,11 +11,11 @@
 namespace pliant {
 namespace {
 
-template <class Method, class Options>
+template <class D, class Options>
 Result<std::unique_ptr<Deformer>> build(std::shared_ptr<const Shape> shape, const NamedValues& given) {
   Options options;
   if (Status s = read(given, options); !s.ok()) return s;
-  Result<std::unique_ptr<Method>> built = Method::create(std::move(shape), options);
+  Result<std::unique_ptr<D>> built = D::create(std::move(shape), options);
   if (!built.ok()) return built.status();
   return std::unique_ptr<Deformer>(std::move(*built));
 }

@@ -43,8 +43,8 @@ class Random {
 /// What the nodes are chosen from, in random order.
 struct Candidates {
   Points points;
-  std::vector<Index> part;     ///< of each point, its component of the surface
-  std::vector<double> shares;  ///< of each part, its share of the area; together 1
+  std::vector<Index> part;             ///< of each point, its component of the surface
+  std::vector<double> area_fractions;  ///< of each part; together 1
 };
 
 /// `count` points over the triangles, one in each of as many equal parts of the area; none where
@@ -63,14 +63,14 @@ Candidates surface_candidates(const Shape& shape, const std::vector<Index>& orde
     const double area = area_vectors.col(static_cast<Index>(t)).norm() / 2;
     total += area;
     area_up_to[t] = total;
-    candidates.shares.resize(std::max<std::size_t>(candidates.shares.size(), part_of[t] + 1), 0.0);
-    candidates.shares[part_of[t]] += area;
+    candidates.area_fractions.resize(std::max<std::size_t>(candidates.area_fractions.size(), part_of[t] + 1), 0.0);
+    candidates.area_fractions[part_of[t]] += area;
   }
   if (total <= Shape::kNoHeight * shape.diagonal() * shape.diagonal()) {
     return {};
   }
-  for (double& share : candidates.shares) {
-    share /= total;
+  for (double& fraction : candidates.area_fractions) {
+    fraction /= total;
   }
   candidates.points.resize(3, count);
   candidates.part.resize(count);
@@ -170,8 +170,8 @@ Removal remove_to_at_least(const Points& points, Index count) {
   return best;
 }
 
-/// Whether a part's share of the area is worth a whole node.
-bool is_noticeable(double share, Index count) { return share * count >= 1.0 - 1e-9; }
+/// Whether a part's fraction of the area is worth a whole node.
+bool is_noticeable(double fraction, Index count) { return fraction * count >= 1.0 - 1e-9; }
 
 /// Thins out chosen candidates, one of the closest pair at a time, the later one.
 class Thinning {
@@ -183,7 +183,7 @@ class Thinning {
         none_near_(2 * radius),
         gone_(chosen_.size(), 0),
         nearest_(chosen_.size()),
-        left_of_part_(candidates.shares.size(), 0),
+        left_of_part_(candidates.area_fractions.size(), 0),
         candidates_(candidates),
         count_(count) {
     for (const Index c : chosen_) {
@@ -234,7 +234,7 @@ class Thinning {
 
   bool is_last_of_its_part(Index i) const {
     const Index part = candidates_.part[chosen_[i]];
-    return left_of_part_[part] == 1 && is_noticeable(candidates_.shares[part], count_);
+    return left_of_part_[part] == 1 && is_noticeable(candidates_.area_fractions[part], count_);
   }
 
   void remove(Index i) {
@@ -261,9 +261,9 @@ class Thinning {
 
 /// Adds the first candidate of every noticeable part that has none.
 void add_missing_parts(const Candidates& candidates, Index count, std::vector<Index>& chosen) {
-  std::vector<char> missing(candidates.shares.size());
+  std::vector<char> missing(candidates.area_fractions.size());
   for (std::size_t part = 0; part < missing.size(); ++part) {
-    missing[part] = is_noticeable(candidates.shares[part], count);
+    missing[part] = is_noticeable(candidates.area_fractions[part], count);
   }
   for (const Index c : chosen) {
     missing[candidates.part[c]] = 0;

@@ -33,7 +33,7 @@ class Document {
   /// The same in pieces, for those who want to know how far it is, or to stop: begin, then advance until it returns 1.
   /// Until then, and after an error, the document is what it was before.
   Status begin(FileFormat format, Bytes bytes);
-  /// Reads about `kPieceSize` bytes further. Returns the share of the file that has been read.
+  /// Reads about `kPieceSize` bytes further. Returns the fraction of the file that has been read.
   Result<double> advance();
 
   /// Takes a shape from elsewhere instead of a file. positions: 3 n. polygons: for each one the

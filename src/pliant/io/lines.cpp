@@ -99,8 +99,8 @@ bool TextScanner::read_color(std::string_view words, double (&rgb)[3]) {
       bytes = bytes || *value > 1.0;
     }
   }
-  for (double& share : rgb) {
-    share /= bytes ? 255.0 : 1.0;
+  for (double& channel : rgb) {
+    channel /= bytes ? 255.0 : 1.0;
   }
   return count >= 3;
 }

@@ -36,8 +36,8 @@ class TextScanner : public Scanner {
   /// between `kept` and them; afterwards both stand behind the third.
   Status take_point(std::string_view line, std::size_t& kept, std::size_t& at, Draft& draft);
 
-  /// Three or four numbers behind a point are a colour (the fourth, how opaque it is, is left out): shares of 1, or of
-  /// 255 where each is a whole number and one is above 1. Any other number of words, or other words, are none.
+  /// Three or four numbers behind a point are a colour (the fourth, how opaque it is, is left out): fractions of 1, or
+  /// of 255 where each is a whole number and one is above 1. Any other number of words, or other words, are none.
   static bool read_color(std::string_view words, double (&rgb)[3]);
 
   std::uint64_t line_ = 1;

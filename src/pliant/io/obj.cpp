@@ -244,8 +244,8 @@ Status ObjScanner::finish() {
 
 std::unique_ptr<Scanner> make_obj_scanner(PolygonCollector* polygons) { return std::make_unique<ObjScanner>(polygons); }
 
-/// A byte as a share of 1, with as many digits as it takes to tell it from the next.
-void append_share(Bytes& out, std::uint8_t value) {
+/// A byte as a fraction of 255, with as many digits as it takes to tell it from the next.
+void append_channel(Bytes& out, std::uint8_t value) {
   append(out, value == 255 ? " 1." : " 0.");
   const unsigned thousandths = value == 255 ? 0U : (1000U * value + 127U) / 255U;
   for (const unsigned unit : {100U, 10U, 1U}) {
@@ -258,7 +258,7 @@ void write_obj(const PolygonMesh& mesh, std::span<const double> positions, Bytes
     append(out, "v ");
     append_numbers(out, &positions[3 * v], 3);
     for (std::size_t c = 3 * v; c < 3 * v + 3 && c < mesh.colors.size(); ++c) {
-      append_share(out, mesh.colors[c]);
+      append_channel(out, mesh.colors[c]);
     }
     out.push_back('\n');
   }

@@ -23,7 +23,7 @@ enum class PlyRole {
   z,                 ///
   u,                 ///< texture coordinates of the vertex
   v,                 ///
-  red,               ///< colour of the vertex: whole numbers up to the largest of their type, or shares
+  red,               ///< colour of the vertex: whole numbers up to the largest of their type, or fractions
   green,             ///
   blue,              ///
   corners,           ///< the vertex ids of a polygon

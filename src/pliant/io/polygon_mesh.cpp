@@ -46,9 +46,9 @@ void PolygonCollector::texcoord(double u, double v) { mesh_.texcoords.insert(mes
 
 void PolygonCollector::color(std::uint64_t vertex, const double (&rgb)[3]) {
   mesh_.colors.resize(3 * vertex, 255);
-  for (const double share : rgb) {
+  for (const double channel : rgb) {
     // What is no number is black, as a cast of it would be undefined.
-    const double inside = share > 0.0 ? std::min(share, 1.0) : 0.0;
+    const double inside = channel > 0.0 ? std::min(channel, 1.0) : 0.0;
     mesh_.colors.push_back(static_cast<std::uint8_t>(std::lround(255.0 * inside)));
   }
 }

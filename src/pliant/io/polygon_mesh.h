@@ -51,7 +51,7 @@ class PolygonCollector {
   /// edges) is left out.
   void end_polygon();
   void texcoord(double u, double v);
-  /// The colour of a vertex, each share from 0 to 1; vertices in ascending order, some may be left out and are white.
+  /// The colour of a vertex, each channel from 0 to 1; vertices in ascending order, some may be left out and are white.
   void color(std::uint64_t vertex, const double (&rgb)[3]);
 
   bool too_large() const {

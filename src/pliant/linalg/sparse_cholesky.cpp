@@ -19,8 +19,8 @@ namespace {
 /// Whether a child supernode may be merged into its parent although that stores some zeros: small
 /// fronts cost more in overhead than in arithmetic.
 bool worth_merging(double width, double zeros, double total) {
-  const double share = zeros / total;
-  return width <= 1 || (width <= 4 && share < 0.4) || (width <= 16 && share < 0.15) || share < 0.05;
+  const double padding = zeros / total;
+  return width <= 1 || (width <= 4 && padding < 0.4) || (width <= 16 && padding < 0.15) || padding < 0.05;
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ void SparseCholesky::link_supernodes() {
     node.parent = supernode_of_[node.rows.front()];
     supernodes_[node.parent].children.push_back(static_cast<Index>(s));
     const Supernode& parent = supernodes_[node.parent];
-    node.runs.clear();
+    node.segments.clear();
     Index below = 0;
     for (Index from = 0; from < static_cast<Index>(node.rows.size()); ++from) {
       const Index row = node.rows[from];
@@ -98,10 +98,10 @@ void SparseCholesky::link_supernodes() {
         while (parent.rows[below] != row) ++below;
         to = parent.width + below;
       }
-      if (!node.runs.empty() && node.runs.back().to + node.runs.back().count == to)
-        ++node.runs.back().count;
+      if (!node.segments.empty() && node.segments.back().to + node.segments.back().count == to)
+        ++node.segments.back().count;
       else
-        node.runs.push_back({from, to, 1});
+        node.segments.push_back({from, to, 1});
     }
   }
   for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node)
@@ -219,8 +219,8 @@ void SparseCholesky::assemble(const BlockMatrix& matrix, std::size_t s, double* 
 void SparseCholesky::extend_add(const Supernode& child, const double* source, double* target, std::ptrdiff_t ld,
                                 Index first, Index last) const {
   const std::ptrdiff_t b = block_, n = static_cast<std::ptrdiff_t>(child.rows.size()) * b;
-  for (std::size_t run = 0; run < child.runs.size(); ++run) {
-    const Run& across = child.runs[run];
+  for (std::size_t s = 0; s < child.segments.size(); ++s) {
+    const Segment& across = child.segments[s];
     const Index begin = std::max(across.to, first), end = std::min(across.to + across.count, last);
     for (std::ptrdiff_t column = begin * b; column < end * b; ++column) {
       const std::ptrdiff_t c = column - across.to * b;
@@ -229,8 +229,8 @@ void SparseCholesky::extend_add(const Supernode& child, const double* source, do
       // The lower triangle, from the block on the diagonal on.
       const std::ptrdiff_t skipped = c / b * b;
       dense::add(from + across.from * b + skipped, across.count * b - skipped, to + across.to * b + skipped);
-      for (std::size_t down = run + 1; down < child.runs.size(); ++down) {
-        const Run& rows = child.runs[down];
+      for (std::size_t down = s + 1; down < child.segments.size(); ++down) {
+        const Segment& rows = child.segments[down];
         dense::add(from + rows.from * b, rows.count * b, to + rows.to * b);
       }
     }

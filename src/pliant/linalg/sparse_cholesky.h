@@ -51,7 +51,7 @@ class SparseCholesky {
 
  private:
   /// Consecutive rows that stay consecutive in the parent's front.
-  struct Run {
+  struct Segment {
     Index from;  ///< first of them, counted below the columns
     Index to;    ///< its node position in the parent's front
     Index count;
@@ -61,11 +61,11 @@ class SparseCholesky {
     Index first = 0;
     Index width = 0;
     Index parent = -1;
-    std::vector<Index> children;  ///< ascending: those with rows below their columns
-    std::vector<Index> rows;      ///< permuted node ids, ascending
-    std::vector<Run> runs;        ///< where the rows lie in the parent's front
-    std::size_t factor = 0;       ///< offset of its panel in a factor
-    int side = 0;                 ///< which of stacks_ takes its update matrix: not its parent's
+    std::vector<Index> children;    ///< ascending: those with rows below their columns
+    std::vector<Index> rows;        ///< permuted node ids, ascending
+    std::vector<Segment> segments;  ///< where the rows lie in the parent's front
+    std::size_t factor = 0;         ///< offset of its panel in a factor
+    int side = 0;                   ///< which of stacks_ takes its update matrix: not its parent's
     Index height() const { return width + static_cast<Index>(rows.size()); }
   };
   /// What solving reads of a supernode, close together; its rows below follow one another in

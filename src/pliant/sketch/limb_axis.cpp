@@ -78,9 +78,8 @@ class LimbFinder {
         const double d = k * step;
         const Eigen::Vector3d far = a + (d - d0) / (d2 - d0) * (e - a);
         const bool low = d < d1;
-        const double share = low ? (d - d0) / (d1 - d0) : (d - d1) / (d2 - d1);
-        levels[k].length +=
-            (far - (low ? a : b) - share * (low ? Eigen::Vector3d(b - a) : Eigen::Vector3d(e - b))).norm();
+        const double t = low ? (d - d0) / (d1 - d0) : (d - d1) / (d2 - d1);
+        levels[k].length += (far - (low ? a : b) - t * (low ? Eigen::Vector3d(b - a) : Eigen::Vector3d(e - b))).norm();
       }
     }
     for (int k = 1; k <= kLevels; ++k) {

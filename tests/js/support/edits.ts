@@ -1,7 +1,8 @@
-// One edit for every method and for sketches, as steps of a script: each with another goal of the same kind.
+// One edit for every method there is and for sketches, as steps of a script: each with another goal of the same kind.
 
 import { half } from "./edit_script.js";
 import { arc, camera, limb, longArc, straight } from "./limb.js";
+import { pliant } from "./package.js";
 import { type Mesh, sheet } from "./shapes.js";
 
 export interface EditCase {
@@ -18,7 +19,14 @@ const solve = { iterations: 400, tolerance: 1e-9 };
 const hand = (z: number, degrees: number) => ({
   name: "hand", select: half([1, 0, 0], 0.9), move: { translate: [-0.05, 0, z], rotate: { axis: [0, 1, 0], degrees } },
 });
-const lift = (method: string, options: object): EditCase => {
+/** Options of methods that are to be tried with others than the default. */
+const tried: Record<string, object> = {
+  "embedded-graph": { nodeCount: 30 },
+  "edge-material": { stretch: 3, bend: 0.5 },
+  arap: { smoothness: 0.05 },
+};
+const lift = (method: string): EditCase => {
+  const options = tried[method] ?? {};
   const step = { method, options, fixed: [left], handles: [hand(0.25, -20)], solve };
   return {
     mesh: sheet(13),
@@ -32,10 +40,10 @@ const drawn = { method: "sketch", camera, reference: straight };
 const short = { ...drawn, reference: straight.slice(0, 50) };
 const finish = { method: "arap", spacing: 0.1, solve };
 
+export const methodNames = pliant.methods.map(({ name }) => name);
+
 export const editCases: Record<string, EditCase> = {
-  "embedded-graph": lift("embedded-graph", { nodeCount: 30 }),
-  "edge-material": lift("edge-material", { stretch: 3, bend: 0.5 }),
-  arap: lift("arap", { smoothness: 0.05 }),
+  ...Object.fromEntries(methodNames.map((name) => [name, lift(name)])),
   sketch: {
     mesh: limb(12, 31),
     step: { ...drawn, bend: { target: arc } },

@@ -31,8 +31,8 @@ function cutAt(line: readonly Pixel[], length: number): [Pixel[], Pixel[]] {
 /** A limb whose end is pulled somewhere: the more, the nearer to the end; where it is held it keeps its direction. */
 export const pulled = (limb: readonly Pixel[], [dx, dy]: Pixel): Pixel[] =>
   limb.map(([x, y], i): Pixel => {
-    const share = (i / (limb.length - 1)) ** 2;
-    return [x + share * dx, y + share * dy];
+    const weight = (i / (limb.length - 1)) ** 2;
+    return [x + weight * dx, y + weight * dy];
   });
 
 /** The direction in which the last (or first) pixels of a line run. */

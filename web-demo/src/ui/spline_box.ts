@@ -84,8 +84,8 @@ export class SplineBox {
     on("pointermove", (event) => {
       if (!this.dragging) return;
       const box = dot.ownerSVGElement!.getBoundingClientRect();
-      const share = 1 - ((event.clientY - box.top) * (height / box.height) - margin) / (height - 2 * margin);
-      this.set(index, min + share * (max - min));
+      const fraction = 1 - ((event.clientY - box.top) * (height / box.height) - margin) / (height - 2 * margin);
+      this.set(index, min + fraction * (max - min));
       this.preview(this.knots);
     });
     const end = (kept: boolean) => () => {

@@ -1,4 +1,4 @@
-// The deformation graph over the shape: nodes coloured by their share of the energy, and edges.
+// The deformation graph over the shape: nodes coloured by the energy they hold, and edges.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -13,9 +13,9 @@ import {
 } from "three";
 import type { State } from "../solver/pliant.ts";
 
-const calm = new Color(0x2f6df0);
+const relaxed = new Color(0x2f6df0);
 const strained = new Color(0xff3d3d);
-/** Energies below this are calm, however small the others are. */
+/** Energies below this are those of rest, however small the others are. */
 const quietest = 0.02;
 
 export interface GraphState {
@@ -54,9 +54,9 @@ export function nodeEnergies({ nodes, edges, rotations, translations }: GraphSta
   };
   for (let e = 0; e < edges.length; e++) {
     const [j, k] = [edges[e]![0]!, edges[e]![1]!];
-    const share = (term(j, k) + term(k, j)) / 2;
-    energy[j]! += share;
-    energy[k]! += share;
+    const half = (term(j, k) + term(k, j)) / 2;
+    energy[j]! += half;
+    energy[k]! += half;
   }
   return energy;
 }
@@ -110,7 +110,7 @@ export class GraphView {
     const color = new Color();
     for (let j = 0; j < count; j++) {
       nodes.setMatrixAt(j, new Matrix4().makeScale(size, size, size).setPosition(...at(j)));
-      nodes.setColorAt(j, color.lerpColors(calm, strained, Math.min(1, Math.sqrt(energies[j]! / scale))));
+      nodes.setColorAt(j, color.lerpColors(relaxed, strained, Math.min(1, Math.sqrt(energies[j]! / scale))));
     }
     nodes.instanceMatrix.needsUpdate = true;
     nodes.instanceColor!.needsUpdate = true;

@@ -11,7 +11,7 @@ type Color = readonly [number, number, number];
 
 /** sRGB bytes. */
 const clay: Color = [222, 206, 186];
-/** Linear colour and share, as bytes: blue where fixed, orange where held. */
+/** Linear colour and opacity, as bytes: blue where fixed, orange where held. */
 const fixedTint = [11, 22, 114, 190];
 const heldTint = [255, 72, 7, 150];
 
@@ -93,13 +93,13 @@ export class ShapeView {
     attribute.needsUpdate = true;
   }
 
-  /** Colours from the constraints; `stroke`: what is still as a stroke that is not done yet leaves it. */
+  /** Colours from the constraints; `stroke`: what does not move as a stroke that is not done yet leaves it. */
   paint(doc: Doc, stroke?: ReadonlySet<number>): void {
     const held = doc.handles.filter((h) => h.held).map((h) => h.vertices);
     const pulled = doc.handles.filter((h) => !h.held).map((h) => h.vertices);
-    const still = stroke ? [stroke] : [doc.fixed, ...held];
-    this.repaint([...still, undefined, ...pulled], stroke !== undefined, (tints) => {
-      for (const region of still) for (const v of region) tints.set(fixedTint, 4 * v);
+    const unmoved = stroke ? [stroke] : [doc.fixed, ...held];
+    this.repaint([...unmoved, undefined, ...pulled], stroke !== undefined, (tints) => {
+      for (const region of unmoved) for (const v of region) tints.set(fixedTint, 4 * v);
       for (const region of pulled) for (const v of region) tints.set(heldTint, 4 * v);
     });
   }
@@ -108,11 +108,11 @@ export class ShapeView {
   paintLimb(limb: SketchView | undefined, faint: boolean): void {
     this.repaint([limb?.labels, limb?.parameters, faint], false, (tints) => {
       if (!limb) return;
-      const share = faint ? 70 : 165;
+      const opacity = faint ? 70 : 165;
       for (let v = 0; 4 * v < tints.length; v++) {
         const s = limb.parameters[v] ?? 0;
         if ((limb.labels[v] ?? 1) > 0) {
-          tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, share], 4 * v);
+          tints.set([225 * (1 - s) ** 1.5 + 8, 14 + 40 * s * (1 - s), 225 * s ** 1.5 + 8, opacity], 4 * v);
         }
       }
     });
@@ -143,7 +143,7 @@ export class ShapeView {
   }
 }
 
-/** Lets a material mix in the colours of the attribute `tint` (rgb and share). */
+/** Lets a material mix in the colours of the attribute `tint` (rgb and opacity). */
 function tinted<T extends Material>(material: T): T {
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader

@@ -28,7 +28,7 @@ class Arap final : public LocalGlobalDeformer {
 
   /// Terms: `rigidity`, with a smoothness above 0 `smoothness`, with soft handles `constraint`.
   Energy energy() const override;
-  /// edges/i, edges/j, edges/weight (the weight of the spokes; with rims the sum of both half
+  /// edges[]/i, j, weight (the weight of the spokes; with rims the sum of both half
   /// cotangents), rotations, result; handles.
   State do_save() const override;
 

@@ -33,10 +33,9 @@ class EdgeMaterial final : public LocalGlobalDeformer {
   /// Terms: `stretch` (weight lambda p_stretch), `bend` (weight mu p_bend), `gravity`, and
   /// `constraint`, which is 0: handles are exact.
   Energy energy() const override;
-  /// edges/i, j, l, m (-1: no bending term), alpha, beta, rho, sigma, kappa; weights/lambda,
-  /// weights/mu, weights/pStretch, weights/pBend, weights/gravity (the force on a vertex);
-  /// floating: vertices of parts that nothing holds, on which gravity does not act; folded/edge,
-  /// folded/normal: edges so folded that they have no normal of their own; result; handles.
+  /// edges[]/i, j, l, m (-1: no bending term), alpha, beta, rho, sigma, kappa; weights/lambda, mu, pStretch, pBend,
+  /// gravity (the force on a vertex); floating: vertices of parts that nothing holds, on which gravity does not act;
+  /// folded[]/edge, normal: edges so folded that they have no normal of their own; result; handles.
   State do_save() const override;
   /// Needs `result`; takes the normals of `folded` where it is there.
   Status do_restore(const State& state) override;

@@ -6,6 +6,12 @@
 #include "pliant/geometry/closest_rotation.h"
 
 namespace pliant::embedded {
+namespace {
+
+/// Turns of handles below this (radians) need no prediction: an iteration or two follows them.
+constexpr double kSmallTurn = 0.2;
+
+}  // namespace
 
 void GraphStart::set_up(const DeformationGraph& graph, const Influences& influences,
                         const std::vector<Handle>& handles) {
@@ -39,7 +45,7 @@ void GraphStart::set_up(const DeformationGraph& graph, const Influences& influen
   }
 }
 
-double GraphStart::small_turn() const { return 0.2; }
+double GraphStart::small_turn() const { return kSmallTurn; }
 
 Eigen::Vector3d GraphStart::standing(Index moved) const {
   return targets_.col(moved) + length_unit_ * solver_.gap(moved);
