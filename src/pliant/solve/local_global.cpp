@@ -12,6 +12,11 @@ namespace {
 /// A step must lower the energy by this part of what its slope promises (Armijo).
 constexpr double kSufficient = 1e-4;
 constexpr int kMaxHalvings = 40;
+/// A gradient below this is rounding, over the largest coordinate and the diagonal of the matrix: terms cancel in it.
+/// Nothing holds a part against steps of its own rounding, and a memory shared with parts that move makes them grow.
+constexpr double kRounding = 1e-14;
+/// What a full step would lower the energy by, over the energy, if that does not show in it.
+constexpr double kInvisible = 1e-12;
 
 }  // namespace
 
@@ -43,18 +48,20 @@ Status LocalGlobal::set_up(const BlockMatrix& matrix, std::vector<bool> held) {
     free_of_point_[p] = free_count();
     point_of_free_.push_back(p);
   }
-  evaluated_ = false;
+  restart();
   for (Vector* v : {&gradient_, &direction_, &previous_, &step_}) v->setZero(unknowns());
   memory_.reset(unknowns());
   if (free_count() == 0) return {};
   const BlockMatrix system = reduced(matrix);
+  part_of_free_ = parts_of(system);
+  still_.assign(*std::max_element(part_of_free_.begin(), part_of_free_.end()) + 1, false);
   if (Status s = factor_.analyze(system); !s.ok()) return s;
   ++analyses_;
   return factorize(system);
 }
 
 Status LocalGlobal::refactorize(const BlockMatrix& matrix) {
-  evaluated_ = false;
+  restart();
   memory_.clear();
   if (free_count() == 0) return {};
   return factorize(reduced(matrix));
@@ -62,6 +69,7 @@ Status LocalGlobal::refactorize(const BlockMatrix& matrix) {
 
 Status LocalGlobal::factorize(const BlockMatrix& system) {
   ++factorizations_;
+  diagonal_.assign(system.diagonal.begin(), system.diagonal.end());
   const Status status = factor_.factorize(system);
   if (status.ok()) factor_.allow_rough();
   return status;
@@ -123,30 +131,67 @@ void LocalGlobal::relax(const Points& half_gradient, Points& x) {
   move(Points(x), -1.0, direction_, x);
 }
 
+void LocalGlobal::restart() {
+  evaluated_ = false;
+  approach_.restart();
+}
+
+void LocalGlobal::take_gradient(const Points& half_gradient, const Points& x) {
+  gather(half_gradient, gradient_);
+  const double rounding = kRounding * x.cwiseAbs().maxCoeff();
+  std::fill(still_.begin(), still_.end(), true);
+  for (Index i = 0; i < free_count(); ++i) {
+    if (half_gradient.col(point_of_free_[i]).norm() > rounding * diagonal_[i]) still_[part_of_free_[i]] = false;
+  }
+  clear_still(gradient_);
+}
+
+void LocalGlobal::clear_still(Vector& v) const {
+  if (std::find(still_.begin(), still_.end(), true) == still_.end()) return;
+  const Index n = free_count();
+  for (Index i = 0; i < n; ++i) {
+    if (!still_[part_of_free_[i]]) continue;
+    for (int a = 0; a < 3; ++a) v[a * n + i] = 0.0;
+  }
+}
+
+double LocalGlobal::find_direction(double slack) {
+  // The classic step first: it needs no trial. Longer ones where the matrix is known to brake.
+  const double length = memory_.empty() ? 1.0 : slack;
+  memory_.direction(
+      gradient_,
+      [&](Vector& d) {
+        factor_.solve_roughly(d.data());
+        d *= length;
+      },
+      direction_);
+  clear_still(direction_);
+  return 2.0 * dense::dot(gradient_.data(), direction_.data(), direction_.size());
+}
+
+void LocalGlobal::accept(LocalModel& model, Points& x, double alpha, double energy) {
+  model.accept();
+  x.swap(trial_);
+  previous_ = gradient_;
+  take_gradient(half_gradient_, x);
+  step_ = alpha * direction_;
+  previous_ = gradient_ - previous_;
+  memory_.remember(step_, previous_);
+  energy_ = energy;
+}
+
 LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tolerance, double diagonal, double noise) {
   if (!evaluated_) {
     energy_ = model.evaluate(x, half_gradient_);
     model.accept();
-    gather(half_gradient_, gradient_);
+    take_gradient(half_gradient_, x);
     evaluated_ = true;
   }
   if (free_count() == 0) return {false, true};
-  const auto find_direction = [&] {
-    // The classic step first: it needs no trial. Longer ones where the matrix is known to brake.
-    const double length = memory_.empty() ? 1.0 : model.slack();
-    memory_.direction(
-        gradient_,
-        [&](Vector& d) {
-          factor_.solve_roughly(d.data());
-          d *= length;
-        },
-        direction_);
-    return 2.0 * dense::dot(gradient_.data(), direction_.data(), direction_.size());
-  };
-  double slope = find_direction();
+  double slope = find_direction(model.slack());
   if (!(slope < 0.0) && !memory_.empty()) {
     memory_.clear();
-    slope = find_direction();
+    slope = find_direction(model.slack());
   }
   double alpha = 1.0;
   for (int halvings = 0; slope < 0.0 && halvings < kMaxHalvings; ++halvings) {
@@ -154,23 +199,18 @@ LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tole
     const double energy = model.evaluate(trial_, half_gradient_);
     if (energy < energy_ && energy <= energy_ + kSufficient * alpha * slope) {
       const double change = energy_ - energy;
-      model.accept();
-      x.swap(trial_);
-      previous_ = gradient_;
-      gather(half_gradient_, gradient_);
-      step_ = alpha * direction_;
-      previous_ = gradient_ - previous_;
-      memory_.remember(step_, previous_);
-      energy_ = energy;
-      const bool settled = change <= tolerance * std::max(std::abs(energy), noise) &&
-                           step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff() <= tolerance * diagonal;
+      accept(model, x, alpha, energy);
+      const double length = longest_move() / diagonal;
+      approach_.add(length);
+      const bool settled =
+          change <= tolerance * std::max(std::abs(energy), noise) && std::max(length, approach_.left()) <= tolerance;
       return {true, settled};
     }
     // Lowest point of the parabola through both energies and the slope, within limits.
     const double lowest = -0.5 * slope * alpha / (energy - energy_ - alpha * slope) * alpha;
     alpha = std::isfinite(lowest) ? std::clamp(lowest, 0.1 * alpha, 0.5 * alpha) : 0.1 * alpha;
   }
-  if (memory_.empty()) return {false, true};
+  if (memory_.empty()) return {false, -slope <= kInvisible * std::max(std::abs(energy_), noise)};
   memory_.clear();  // once more along the plain direction before giving up
   return step(model, x, tolerance, diagonal, noise);
 }

@@ -10,6 +10,7 @@
 
 #include "pliant/core/status.h"
 #include "pliant/linalg/sparse_cholesky.h"
+#include "pliant/solve/approach.h"
 #include "pliant/solve/lbfgs.h"
 #include "pliant/solve/local_model.h"
 
@@ -34,12 +35,13 @@ class LocalGlobal {
     bool converged = false;
   };
   /// One accepted step from x (3 x p), which it moves, or the finding that none lowers the energy.
-  /// Converged: relative change of the energy (energies below `noise` count as 0) and the largest
-  /// move over `diagonal` are at most `tolerance`. Held points stay where they are.
+  /// Converged: the relative change of the energy (energies below `noise` count as 0) is at most `tolerance`, and so
+  /// are the largest move and what is left of the way (approach.h), over `diagonal`; or nothing but rounding is left
+  /// of the gradient. Held points stay where they are, and so do parts whose gradient is rounding.
   Outcome step(LocalModel& model, Points& x, double tolerance, double diagonal, double noise);
 
   /// The energy at x is not the one of the last step any more (other targets, other weights).
-  void restart() { evaluated_ = false; }
+  void restart();
   /// Past steps say nothing about the ones to come.
   void forget() { memory_.clear(); }
 
@@ -62,11 +64,25 @@ class LocalGlobal {
   Status factorize(const BlockMatrix& system);
   void gather(const Points& values, Vector& unknowns) const;
   void move(const Points& from, double alpha, const Vector& direction, Points& to) const;
+  /// Takes over half the gradient at x, but for parts where it is rounding.
+  void take_gradient(const Points& half_gradient, const Points& x);
+  /// Of parts without a gradient: what a step does to others is none of their business.
+  void clear_still(Vector& v) const;
+  /// Where to go from the gradient that stands; the slope of the energy along it.
+  double find_direction(double slack);
+  /// Moves to `trial_`, `alpha` along the direction.
+  void accept(LocalModel& model, Points& x, double alpha, double energy);
+  /// The longest move of a point by the last step.
+  double longest_move() const { return step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff(); }
 
   std::vector<Index> free_of_point_;  ///< -1: held
   std::vector<Index> point_of_free_;
   std::vector<std::pair<Edge, double>> coupling_;  ///< (free, held point) and the matrix entry
   SparseCholesky factor_;
+  std::vector<double> diagonal_;     ///< of the matrix, a free point
+  std::vector<Index> part_of_free_;  ///< connected through entries between free points
+  std::vector<bool> still_;          ///< parts without a gradient
+  Approach approach_;
   Lbfgs memory_{6};         ///< more pairs cost more than they save
   bool evaluated_ = false;  ///< energy_ and gradient_ belong to the present x
   double energy_ = 0.0;
