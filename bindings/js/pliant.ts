@@ -8,6 +8,7 @@ import { type DeformerOptions, methodInfos, type MethodName } from "./methods/in
 import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
 import { Edit } from "./edit/living.js";
 import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
+import { type RigidTransform, rigidMotion } from "./shape/rigid.js";
 import { Shape, shapeFor, type ShapeInput } from "./shape/shape.js";
 import { type Camera, limbStroke, Sketch, type SketchOptions } from "./deform/sketch.js";
 
@@ -52,6 +53,14 @@ export class Pliant {
   /** Compares a shape with deformed positions of its vertices. Errors: invalid-option. */
   measure(shape: Shape, positions: ArrayLike<number>, options?: MeasureOptions): Quality {
     return measure(this.#core, shape, positions, options);
+  }
+
+  /**
+   * The rigid motion that takes points closest to others, by least squares: three numbers a point, as many of both. Where
+   * they leave the turn open (one point, or all on a line) it is the smallest one. Errors: invalid-option.
+   */
+  rigidMotion(from: ArrayLike<number>, to: ArrayLike<number>): RigidTransform {
+    return rigidMotion(this.#core, from, to);
   }
 
   /** A living edit of a shape, at rest: it carries out one document after another and keeps what it can. */

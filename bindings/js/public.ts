@@ -15,6 +15,8 @@ export { Pliant } from "./pliant.js";
 export type { MeasureOptions, Quality } from "./shape/quality.js";
 export { Edit } from "./edit/living.js";
 export type * from "./edit/types.js";
+export type { LoosePart, Spot } from "./shape/patch.js";
+export type { RigidTransform } from "./shape/rigid.js";
 export type { Selection } from "./shape/selection.js";
 export { Shape, type ShapeInput, type ShapeReport } from "./shape/shape.js";
 export {

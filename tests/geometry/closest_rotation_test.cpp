@@ -47,6 +47,22 @@ TEST_CASE("where the points leave the turn open it is the smallest one") {
   CHECK((fit(from, to).rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm() < 1e-14);
 }
 
+TEST_CASE("points that stay are fitted by the identity, exactly") {
+  test::Random random(4);
+  const Points points = random.vector(3 * 50).reshaped(3, 50);
+  CHECK(fit(points, points).rotation.isIdentity(0.0));
+  CHECK(fit(points, points).translation.isZero(0.0));
+}
+
+TEST_CASE("a fit knows the centres of both sets") {
+  RigidFit fit;
+  CHECK(fit.from_center().isZero(0.0));
+  fit.add({1, 2, 3}, {0, 0, 1});
+  fit.add({3, 2, 5}, {2, 0, 3});
+  CHECK(fit.from_center() == Eigen::Vector3d(2, 2, 4));
+  CHECK(fit.to_center() == Eigen::Vector3d(1, 0, 2));
+}
+
 TEST_CASE("of points that do not fit exactly the sum of squares is least") {
   test::Random random(8);
   const Points from = random.vector(60).reshaped(3, 20), to = random.vector(60).reshaped(3, 20);

@@ -208,5 +208,18 @@ TEST_CASE("collapsed and triangle-free shapes have finite measures") {
   CHECK(!quality.volume.has_value());
 }
 
+TEST_CASE("the enclosed volume is signed, and there only where something is bounded") {
+  const auto volume = [](const test::Mesh& mesh) { return enclosed_volume(*test::shape_of(mesh)); };
+  CHECK(volume(test::box(1, 2, 3, 0.5)).value() == doctest::Approx(6.0));
+  CHECK(volume(test::soup(test::sphere(5))).value() == doctest::Approx(4.0 / 3.0 * pi).epsilon(0.01));
+  test::Mesh inside_out = test::box(1, 2, 3, 0.5);
+  for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
+    std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
+  CHECK(volume(inside_out).value() == doctest::Approx(-6.0));
+  CHECK_FALSE(volume(test::tube(12, 5)).has_value());
+  CHECK_FALSE(volume(test::plane_grid(4, 4)).has_value());
+  CHECK_FALSE(volume({test::sphere(1).positions, {}}).has_value());
+}
+
 }  // namespace
 }  // namespace pliant

@@ -52,6 +52,14 @@ export interface RawShape extends RawObject {
   build(scratch: RawScratch, dimension: number): RawStatus;
   report(): ShapeReport;
   diagonal(): number;
+  /** Of what the surface bounds; NaN: nothing. */
+  volume(): number;
+  /** integers: a vertex a spot; doubles: 3 a spot, its centre, then 3 n positions, or none for those at rest. */
+  patch(scratch: RawScratch, radius: number): Int32Array;
+  /** How many there are; the next two give vertices of one of them. */
+  findLooseParts(): number;
+  loosePart(part: number): Int32Array;
+  besideLoosePart(part: number): Int32Array;
 }
 
 export interface RawStep {
@@ -191,6 +199,8 @@ export interface RawModule {
   Sketch: new () => RawSketch;
   /** doubles: 3 n deformed positions of the input's vertices. */
   measureQuality(shape: RawShape, scratch: RawScratch, withIntersections: boolean): RawQuality;
+  /** doubles in: 3 q points, and where they go; out, 9: the rotation vector of the rigid motion, its centre, and where that goes. */
+  fitRigid(scratch: RawScratch): void;
 }
 
 /** A file read into memory (bind_io.cpp). */

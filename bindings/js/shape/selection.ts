@@ -103,6 +103,7 @@ export function readSelection(place: Place, value: unknown, extent: Extent): Sel
 /** The selected ids, ascending. An empty selection is an error. */
 export function selectedIds(place: Place, select: Select, rest: Float64Array): Int32Array {
   const mask = select(rest);
-  const ids = Int32Array.from(mask.keys()).filter((id) => mask[id] === 1);
-  return ids.length > 0 ? ids : place.reject("selects no vertex; expected at least one");
+  const ids: number[] = [];
+  for (let id = 0; id < mask.length; ++id) if (mask[id] === 1) ids.push(id);
+  return ids.length > 0 ? Int32Array.from(ids) : place.reject("selects no vertex; expected at least one");
 }

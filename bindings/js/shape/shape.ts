@@ -4,6 +4,7 @@ import { coordinates, fields, integer, list, Place } from "../boundary/check.js"
 import { build, type Core, disposeSymbol, Owned } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { RawShape, ShapeReport } from "../boundary/raw.js";
+import { type LoosePart, loosePartsOf, patchOf, type Spot } from "./patch.js";
 import { type Extent, readSelection, selectedIds, type Selection } from "./selection.js";
 
 /** A mesh, a polygon soup, points, or a picture in the plane. */
@@ -74,6 +75,28 @@ export class Shape {
   select(selection: Selection): Uint32Array {
     const place = new Place("invalid-option", "selection");
     return Uint32Array.from(selectedIds(place, readSelection(place, selection, extentOf(this)), this.#inside.rest));
+  }
+
+  /**
+   * The vertices of a patch, ascending: what a brush touches. Of each spot its vertex, and all that can be reached from it
+   * along triangles without leaving the ball of `radius` around its center; vertices at one place go together, and of
+   * points that nothing joins all within the ball. `positions`: where the vertices are now, `dimension` numbers each; left
+   * out: at rest. Errors: invalid-option.
+   */
+  patch(spots: readonly Spot[], radius: number, positions?: ArrayLike<number>): Uint32Array {
+    const { owned, rest } = this.#inside;
+    return patchOf(owned, rest, this.dimension, spots, radius, positions);
+  }
+
+  /** Small parts of the surface that nothing joins to the rest, most vertices first; none where there are more than 64. */
+  looseParts(): LoosePart[] {
+    return loosePartsOf(this.#inside.owned);
+  }
+
+  /** Signed volume of what the surface bounds, positive where its triangles look outwards; null where it bounds nothing. */
+  volume(): number | null {
+    const volume = this.#inside.owned.call((shape) => shape.volume());
+    return Number.isNaN(volume) ? null : volume;
   }
 
   /** Frees its memory; deformers built over it stay. */

@@ -71,12 +71,12 @@ export const surface = {
     constants: ["methods"],
     calls: {
       shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" }, open: { gives: "Edit" },
-      limbStroke: plain, measure: plain, edit: { options: 2 },
+      limbStroke: plain, measure: plain, rigidMotion: plain, edit: { options: 2 },
     },
   },
   Shape: {
     constants: ["report", "dimension", "diagonal"],
-    calls: { select: plain, dispose: ends },
+    calls: { select: plain, patch: plain, looseParts: plain, volume: plain, dispose: ends },
   },
   Deformer: {
     constants: ["method"],

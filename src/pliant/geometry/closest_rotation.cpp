@@ -40,6 +40,7 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation) {
 }
 
 void RigidFit::add(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  all_stay_ = all_stay_ && from == to;
   if (count_++ == 0) {
     first_from_ = from;
     first_to_ = to;
@@ -53,9 +54,13 @@ void RigidFit::add(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   to_squared_ += b.squaredNorm();
 }
 
+Eigen::Vector3d RigidFit::from_center() const { return first_from_ + from_ / std::max(count_, 1); }
+
+Eigen::Vector3d RigidFit::to_center() const { return first_to_ + to_ / std::max(count_, 1); }
+
 RigidMotion RigidFit::motion() const {
   RigidMotion motion;
-  if (count_ == 0) return motion;
+  if (all_stay_) return motion;
   const Eigen::Vector3d from_mean = from_ / count_, to_mean = to_ / count_;
   const Eigen::Matrix3d covariance = products_ - to_ * from_mean.transpose();
   const double from_spread = from_squared_ - from_.dot(from_mean);
@@ -72,7 +77,7 @@ RigidMotion RigidFit::motion() const {
   } else if (s[0] > kRankTolerance * spread && spread > 0.0) {
     motion.rotation = smallest_turn(svd.v.col(0), svd.u.col(0));
   }
-  motion.translation = first_to_ + to_mean - motion.rotation * (first_from_ + from_mean);
+  motion.translation = to_center() - motion.rotation * from_center();
   return motion;
 }
 

@@ -15,19 +15,23 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Matrix3d& rotation);
 
 /// The rigid motion that takes points to others best in the least-squares sense (Kabsch), from the
 /// pairs added so far. Where they leave the turn open (one point, or all on a line) it is the
-/// smallest one; without any, the identity.
+/// smallest one; where all of them stay, and without any, exactly the identity.
 class RigidFit {
  public:
   void add(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   RigidMotion motion() const;
+  /// The means of both sets, which the motion takes to each other; zero without any pair.
+  Eigen::Vector3d from_center() const;
+  Eigen::Vector3d to_center() const;
 
  private:
   // Sums over the pairs, relative to the first, so that they keep their digits.
-  Eigen::Vector3d first_from_, first_to_;
+  Eigen::Vector3d first_from_ = Eigen::Vector3d::Zero(), first_to_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), to_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero();  ///< to from'
   double from_squared_ = 0.0, to_squared_ = 0.0;
   Index count_ = 0;
+  bool all_stay_ = true;
 };
 
 }  // namespace pliant

@@ -108,6 +108,11 @@ double signed_volume(const Points& points, const Triangles& triangles) {
   return volume;
 }
 
+/// More than rounding.
+bool is_volume(double volume, const Shape& shape) {
+  return std::abs(volume) > Shape::kNoHeight * std::pow(shape.diagonal(), 3);
+}
+
 Index count_folds(const EdgeTable& edges, const Points& area_vectors_rest, const Points& area_vectors) {
   const auto cosine = [](const Points& vectors, Index s, Index t) {
     const double lengths = vectors.col(s).norm() * vectors.col(t).norm();
@@ -167,6 +172,14 @@ double roughness(const EdgeTable& edges, const Points& points, const Points& nor
 
 }  // namespace
 
+std::optional<double> enclosed_volume(const Shape& shape) {
+  const Triangles& triangles = shape.triangles();
+  const double volume = signed_volume(shape.points(), triangles);
+  if (!is_volume(volume, shape)) return {};
+  if (!is_closed(triangles, unique_edges(triangles, static_cast<Index>(shape.points().cols())))) return {};
+  return volume;
+}
+
 Quality measure_quality(const Shape& shape, const Points& deformed, bool with_intersections) {
   const Points& rest = shape.points();
   const Triangles& triangles = shape.triangles();
@@ -188,7 +201,7 @@ Quality measure_quality(const Shape& shape, const Points& deformed, bool with_in
     quality.area = area_vectors.colwise().norm().sum() / doubled_area;
   }
   const double volume = signed_volume(rest, triangles);
-  if (std::abs(volume) > Shape::kNoHeight * std::pow(diagonal, 3) && is_closed(triangles, edges)) {
+  if (is_volume(volume, shape) && is_closed(triangles, edges)) {
     quality.volume = signed_volume(deformed, triangles) / volume;
   }
   quality.roughness_rest = roughness(edges, rest, point_normals(rest, triangles)) / diagonal;

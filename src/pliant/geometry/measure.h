@@ -29,6 +29,10 @@ struct Quality {
   double roughness = 0.0;  ///< ... and deformed
 };
 
+/// Signed volume of what a surface bounds, positive where its triangles look outwards. Only where every edge is walked
+/// as often one way as the other, and the volume is not zero.
+std::optional<double> enclosed_volume(const Shape& shape);
+
 /// Compares a shape with its deformed points (3 x p, one per point of the shape, finite).
 /// `with_intersections` false skips the only measure that needs a tree over the triangles.
 Quality measure_quality(const Shape& rest, const Points& deformed, bool with_intersections = true);

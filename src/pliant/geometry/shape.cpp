@@ -210,6 +210,16 @@ std::shared_ptr<const Shape> Shape::in_local_order() const {
   return shape;
 }
 
+std::vector<Index> Shape::vertices_at(std::span<const Index> points) const {
+  std::vector<bool> wanted(points_.cols(), false);
+  for (const Index point : points) wanted[point] = true;
+  std::vector<Index> vertices;
+  for (Index v = 0; v < input_size(); ++v) {
+    if (wanted[point_of_vertex_[v]]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 Points Shape::scatter(const Points& of_points) const {
   assert(of_points.cols() == points_.cols());
   Points of_vertices(3, input_size());

@@ -68,6 +68,8 @@ class Shape {
   std::shared_ptr<const Shape> in_local_order() const;
   /// 3 x p values of the points -> 3 x n values of the input's vertices.
   Points scatter(const Points& of_points) const;
+  /// The input's vertices at some points, ascending.
+  std::vector<Index> vertices_at(std::span<const Index> points) const;
 
  private:
   Shape() = default;

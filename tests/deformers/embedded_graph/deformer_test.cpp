@@ -101,6 +101,19 @@ TEST_CASE("fixed regions stay bit for bit and shrink the system") {
   CHECK(edit.deformer->counters().unknowns == 12 * (120 - frozen));
 }
 
+TEST_CASE("the state tells the energy of each node") {
+  BumpyEdit edit(41, {.node_count = 60}, 0.4);
+  CHECK(edit.deformer->save().find("energies")->data == std::vector<double>(60, 0.0));
+  test::settle(*edit.deformer);
+  const State state = edit.deformer->save();
+  double sum = 0.0;
+  for (const double energy : state.find("energies")->data) sum += energy;
+  const Energy energy = edit.deformer->energy();
+  CHECK(sum == doctest::Approx(energy.terms[0].weight * energy.terms[0].value +
+                               energy.terms[1].weight * energy.terms[1].value));
+  CHECK(sum > 0.0);
+}
+
 TEST_CASE("other fixed vertices that leave as many nodes free, but other edges between them") {
   const auto mesh = test::plane_grid(5, 3);
   const auto deformer = make(mesh, {.solver = EmbeddedGraphSolver::gauss_newton});

@@ -191,4 +191,9 @@ TEST_CASE("terms of the nodes add up to the terms") {
   for (double r : rotation) sum += r;
   CHECK(sum == doctest::Approx(s.energy.terms().rotation));
   CHECK(rotation[3] == 0.0);  // frozen
+  const std::vector<double> energies = s.energy.node_energies(s.x);
+  const auto& w = s.energy.weights();
+  for (std::size_t j = 0; j < energies.size(); ++j) {
+    CHECK(energies[j] == w.rotation * rotation[j] + w.regularization * regularization[j]);
+  }
 }

@@ -36,6 +36,8 @@ struct EmbeddedGraph::Impl {
     return {options.rotation_weight, options.regularization_weight, options.constraint_weight};
   }
   embedded::Terms terms_of(const Shape& shape, const Constraints& constraints) const;
+  /// Of each node, weighted: its rotation term, and the regularisation of its edges to others.
+  std::vector<double> node_energies() const;
   PackedMaps position_maps() const;
   PackedMaps normal_maps() const;
 };
@@ -83,6 +85,15 @@ embedded::Terms EmbeddedGraph::Impl::terms_of(const Shape& shape, const Constrai
   embedded::Terms terms = energy.terms();
   terms.barrier = embedded::barrier::sum(energy, x);
   return terms;
+}
+
+std::vector<double> EmbeddedGraph::Impl::node_energies() const {
+  GraphEnergy energy;
+  energy.set_up(graph, std::vector<bool>(graph.size(), false), Points(3, 0), Influences{graph.influences.k, {}, {}},
+                weights());
+  const embedded::Vector x = embedded::unknowns_of(pose);
+  energy.evaluate(x);
+  return energy.node_energies(x);
 }
 
 PackedMaps EmbeddedGraph::Impl::position_maps() const {
@@ -263,6 +274,7 @@ State EmbeddedGraph::do_save() const {
   copy("influences/indices", 1, influences.indices, true);
   copy("influences/weights", 1, influences.weights, false);
   state.add("lengthUnit", 0, false).data = {graph.length_unit};
+  state.add("energies", 1, false).data = impl_->node_energies();
   return state;
 }
 

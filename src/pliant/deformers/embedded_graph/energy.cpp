@@ -220,6 +220,15 @@ void GraphEnergy::node_terms(const Vector& x, std::vector<double>& rotation,
   }
 }
 
+std::vector<double> GraphEnergy::node_energies(const Vector& x) const {
+  std::vector<double> energies, regularization;
+  node_terms(x, energies, regularization);
+  for (std::size_t j = 0; j < energies.size(); ++j) {
+    energies[j] = weights_.rotation * energies[j] + weights_.regularization * regularization[j];
+  }
+  return energies;
+}
+
 void GraphEnergy::half_gradient(const Vector& x, Vector& gradient) const {
   gradient = weights_.constraint * constraints_.gradient();
   for (int a = 0; a < 3; ++a) {

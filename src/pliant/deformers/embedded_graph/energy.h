@@ -71,6 +71,8 @@ class GraphEnergy {
   double total() const { return terms_.total(weights_); }
   /// Terms of every node of the graph: its rotation, and its directed edges' regularisation.
   void node_terms(const Vector& x, std::vector<double>& rotation, std::vector<double>& regularization) const;
+  /// Their weighted sums, one a node.
+  std::vector<double> node_energies(const Vector& x) const;
 
   /// Half the gradient of F at the current x.
   void half_gradient(const Vector& x, Vector& gradient) const;

@@ -19,18 +19,11 @@ constexpr double kLeastDeterminant = 0.2;
 
 /// Nodes whose weighted rotation and regularisation terms stand out.
 std::vector<bool> strained_nodes(const GraphSolver& solver) {
-  std::vector<double> rotation, regularization;
-  solver.energy().node_terms(solver.x(), rotation, regularization);
-  const Weights& w = solver.energy().weights();
+  const std::vector<double> energies = solver.energy().node_energies(solver.x());
   double mean = 0.0;
-  for (std::size_t j = 0; j < rotation.size(); ++j) {
-    rotation[j] = w.rotation * rotation[j] + w.regularization * regularization[j];
-    mean += rotation[j] / static_cast<double>(rotation.size());
-  }
-  std::vector<bool> strained(rotation.size());
-  for (std::size_t j = 0; j < rotation.size(); ++j) {
-    strained[j] = mean > 1e-12 && rotation[j] > kStandsOut * mean;
-  }
+  for (const double energy : energies) mean += energy / static_cast<double>(energies.size());
+  std::vector<bool> strained(energies.size());
+  for (std::size_t j = 0; j < energies.size(); ++j) strained[j] = mean > 1e-12 && energies[j] > kStandsOut * mean;
   return strained;
 }
 
