@@ -89,9 +89,9 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
     });
   }
 
-  /** Fields that a state may have or not. @internal */
+  /** Fields that a state may have or not: those of an edit's. @internal */
   protected get optionalFields(): readonly string[] {
-    return [];
+    return ["follow"];
   }
 
   /** What its state has beside numbers. @internal */

@@ -288,7 +288,7 @@ export class Sketch extends Deformation<SketchState, RawSketch> {
 
   /** @internal */
   protected override get optionalFields(): readonly string[] {
-    return ["handles", "sides", "joints", "twists", "scales", "rest", "parents"];
+    return [...super.optionalFields, "handles", "sides", "joints", "twists", "scales", "rest", "parents"];
   }
 
   #profile(profile: Profile, set: (raw: RawSketch, scratch: RawScratch) => RawStatus): void {

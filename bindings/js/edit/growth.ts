@@ -1,5 +1,6 @@
-// What the refinements of a script have added to its shape, one after the other.
+// Numbers of vertices: of some of them, and of those that the refinements of a script have added, one after the other.
 
+import type { FloatArray } from "../boundary/check.js";
 import type { Refinement } from "../deform/sketch.js";
 
 /** A refinement of what `growth` made of the input, as one of the input. */
@@ -33,6 +34,13 @@ export function extendedLabels(labels: Uint32Array, parents: ArrayLike<number>):
     result[at] = a === b ? a : 1;
   }
   return result;
+}
+
+/** Of some vertices, `width` numbers each. */
+export function gathered(values: FloatArray, ids: Int32Array, width: number): Float64Array {
+  const own = new Float64Array(width * ids.length);
+  ids.forEach((id, i) => own.set(values.subarray(width * id, width * (id + 1)), width * i));
+  return own;
 }
 
 /** Numbers in rows. */

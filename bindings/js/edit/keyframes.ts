@@ -20,7 +20,7 @@ function sameStep(place: Place, a: Json, b: Json): void {
   same(place.at("method"), a.method, b.method);
   if (b.method === "place") return sameHandles(place.at("parts"), "parts", a.parts as Json[], b.parts as Json[]);
   if (b.drag !== undefined) place.at("drag").reject("is given in a keyframe; expected a drag only in steps");
-  for (const key of ["options", "fixed", "solve"]) same(place.at(key), a[key], b[key]);
+  for (const key of ["options", "fixed", "solve", "follow"]) same(place.at(key), a[key], b[key]);
   sameHandles(place.at("handles"), "handles", (a.handles ?? []) as Json[], (b.handles ?? []) as Json[]);
 }
 

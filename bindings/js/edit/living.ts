@@ -9,6 +9,7 @@ import type { Refinement } from "../deform/sketch.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { measure } from "../shape/quality.js";
 import { extentOf, insideOf, Shape } from "../shape/shape.js";
+import { Followers } from "./follow.js";
 import { extended, rows } from "./growth.js";
 import { located } from "./located.js";
 import type { StepPlan } from "./plan.js";
@@ -231,11 +232,13 @@ export class Edit {
     const { last } = this.#live;
     if (!last) return { handles: [] };
     const { growth } = last;
-    if (!growth) return last.state();
+    const follow = last.followed();
+    const state = { ...last.state(), ...(follow.length > 0 ? { follow } : {}) };
+    if (!growth) return state;
     // Where all added vertices come from, and where they are at rest in their step.
     const count = this.shape.report.vertices;
     const rest = extended(last.restPositions, 3, growth.parents.subarray(2 * (last.restPositions.length / 3 - count)));
-    return { ...last.state(), parents: rows(growth.parents, 2), rest: rows(rest.subarray(3 * count), 3) };
+    return { ...state, parents: rows(growth.parents, 2), rest: rows(rest.subarray(3 * count), 3) };
   }
 
   /** The limb of the last step, where that is a sketch. */
@@ -302,6 +305,7 @@ function readStage(here: Place, value: unknown): StageMoment {
 
 /** What can be told of the first step without building it. */
 function judge(plan: StepPlan, rest: Rest): void {
+  Followers.of(plan, rest);
   if (plan.kind === "solver") checkedRoles(plan, rest);
   if (plan.kind === "place") checkedParts(plan, rest);
 }

@@ -4,13 +4,13 @@ import { type FloatArray, toSpace } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import { surfaceNormals } from "../shape/normals.js";
-import { rows } from "./growth.js";
+import { gathered, rows } from "./growth.js";
 import type { PlacePlan } from "./plan.js";
 import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, placed, sameGoal } from "./roles.js";
 import { same } from "./same.js";
-import { Stage, type StageStep } from "./stage.js";
+import { type Result, Stage, type StageStep } from "./stage.js";
 import type { StageMoment, StepReport } from "./types.js";
 
 export class PlaceStage extends Stage<PlacePlan> {
@@ -27,7 +27,7 @@ export class PlaceStage extends Stage<PlacePlan> {
     this.#positions = rest.positions;
   }
 
-  prepare(plan: PlacePlan, rest: Rest): boolean {
+  protected take(plan: PlacePlan, rest: Rest): boolean {
     if (plan === this.plan && rest === this.rest) return false;
     const parts = checkedParts(plan, rest);
     const stays = rest === this.rest && same(parts, this.#parts)
@@ -72,14 +72,20 @@ export class PlaceStage extends Stage<PlacePlan> {
     this.changed();
   }
 
-  positions<T extends FloatArray>(out: T): T {
-    out.set(this.#positions);
-    return out;
+  protected get result(): Result {
+    const { triangles, dimension, positions: rest } = this.rest;
+    const placed = this.#positions;
+    return {
+      positions<T extends FloatArray>(out: T): T {
+        out.set(placed);
+        return out;
+      },
+      normals: (out) => surfaceNormals(placed, triangles, rest, dimension, out),
+    };
   }
 
-  normals<T extends FloatArray>(out: T): T {
-    const { triangles, dimension, positions } = this.rest;
-    return surfaceNormals(this.#positions, triangles, positions, dimension, out);
+  protected guides(): () => boolean {
+    return () => true;
   }
 
   state(): State {
@@ -113,11 +119,4 @@ export class PlaceStage extends Stage<PlacePlan> {
     this.prepare(plan, rest);
     if (shown) this.advance();
   }
-}
-
-/** Of some vertices, `width` numbers each. */
-function gathered(values: Float64Array, ids: Int32Array, width: number): Float64Array {
-  const own = new Float64Array(width * ids.length);
-  ids.forEach((id, i) => own.set(values.subarray(width * id, width * (id + 1)), width * i));
-  return own;
 }

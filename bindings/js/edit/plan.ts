@@ -21,6 +21,12 @@ export interface RegionPlan {
   select: Select;
 }
 
+/** A part of the shape that goes along with another. */
+export interface FollowPlan {
+  follows: RegionPlan;
+  along: RegionPlan;
+}
+
 export interface DragPlan {
   source: unknown;
   /** By the position of the handle in the step. */
@@ -49,6 +55,7 @@ export interface SolverPlan extends Planned<"solver">, SolvePlan {
   fixed: RegionPlan[];
   handles: HandlePlan[];
   drag: DragPlan[];
+  follow: readonly FollowPlan[];
 }
 
 /** How a limb is posed. */
@@ -79,6 +86,7 @@ export interface SketchPlan extends Planned<"sketch"> {
   toward: { pose: PosePlan; t: number } | undefined;
   refine: { maxAdded?: number } | undefined;
   finish: FinishPlan | undefined;
+  follow: readonly FollowPlan[];
 }
 
 export interface PlacePlan extends Planned<"place"> {

@@ -4,6 +4,7 @@ import { choice, fields, type Fields, filled, finite, integer, list, Place, poin
 import { type Method, type Options, readLive, readMethod, readSeed } from "../methods/index.js";
 import { type Extent, readSelection } from "../shape/selection.js";
 import { readTransform, type Transform } from "../shape/transform.js";
+import { readFollow } from "./follow.js";
 import { sameExceptGoals } from "./keyframes.js";
 import type {
   DragPlan, Goal, HandlePlan, Keyframe, PlacePlan, RegionPlan, ScriptPlan, SolverPlan, StepPlan,
@@ -111,7 +112,7 @@ function readSolverStep(
   place: Place, value: object, { extent, seed }: Context, old: SolverPlan | undefined,
 ): SolverPlan {
   const method = readMethod(place.at("method"), (value as Fields).method);
-  const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag"]);
+  const step = fields(place, value, ["method", "options", "fixed", "handles", "solve", "drag", "follow"]);
   const options = readDeformer(place.at("options"), step.options, method, extent, seed);
   const known = (old?.source ?? {}) as Fields;
   const sameHandles = known.handles !== undefined && known.handles === step.handles;
@@ -123,9 +124,9 @@ function readSolverStep(
   if (handles.length === 0 && !loaded) asksForNothing(place, step.handles, method);
   const sameFixed = known.fixed !== undefined && known.fixed === step.fixed;
   const fixed = old && sameFixed ? old.fixed : readFixed(place.at("fixed"), step.fixed ?? [], extent);
-  return {
-    kind: "solver", place, source: value, options, fixed, handles, drag, ...readSolve(place.at("solve"), step.solve),
-  };
+  const follow = readFollow(place.at("follow"), step.follow, extent);
+  const solve = readSolve(place.at("solve"), step.solve);
+  return { kind: "solver", place, source: value, options, fixed, handles, drag, follow, ...solve };
 }
 
 function readFixed(place: Place, value: unknown, extent: Extent): RegionPlan[] {

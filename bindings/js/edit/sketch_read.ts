@@ -5,6 +5,7 @@ import { readMethod } from "../methods/index.js";
 import type { Extent } from "../shape/selection.js";
 import type { Camera, Profile, SketchOptions, Stroke } from "../deform/sketch.js";
 import { readCamera, readDrawing, readPairs } from "../deform/sketch_input.js";
+import { readFollow } from "./follow.js";
 import type { DrawnRegion, FinishPlan, PosePlan, SketchPlan } from "./plan.js";
 import { maxCount, readDeformer, readSolve } from "./solve.js";
 
@@ -13,7 +14,7 @@ export const poseKeys = ["bend", "twist", "scale", "turning", "twistSpeed", "mor
 const drawingKeys = ["camera", "reference", "hold", "partitions", "smooth", "mirror"] as const;
 
 export function readSketchStep(place: Place, value: unknown, extent: Extent, seed: number | undefined): SketchPlan {
-  const step = fields(place, value, ["method", ...drawingKeys, ...poseKeys, "region", "refine", "finish"]);
+  const step = fields(place, value, ["method", ...drawingKeys, ...poseKeys, "region", "refine", "finish", "follow"]);
   readDrawing(place, step);
   const pose = readPose(place, step);
   const region = step.region === undefined ? undefined : readRegion(place.at("region"), step);
@@ -26,6 +27,7 @@ export function readSketchStep(place: Place, value: unknown, extent: Extent, see
   return {
     kind: "sketch", place, source: value, region, pose, toward: undefined, refine,
     sketch: drawingOf(step),
+    follow: readFollow(place.at("follow"), step.follow, extent),
     finish: step.finish === undefined ? undefined : readFinish(place.at("finish"), step.finish, extent, seed),
   };
 }

@@ -1,6 +1,5 @@
 // A sketch step: a limb, which stays as long as the same stroke chose it, its pose, and perhaps a solver that goes on.
 
-import type { FloatArray } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import type { Step } from "../deform/deformer.js";
@@ -12,7 +11,7 @@ import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 import { copied } from "./solving.js";
-import { Stage, type StageStep } from "./stage.js";
+import { type Result, Stage, type StageStep } from "./stage.js";
 import type { SketchView, StageMoment, StepReport } from "./types.js";
 
 /** What chooses a limb; the rest of a step poses it. */
@@ -35,7 +34,7 @@ export class SketchStage extends Stage<SketchPlan> {
     this.#setupMs = performance.now() - begin;
   }
 
-  prepare(plan: SketchPlan, rest: Rest): boolean {
+  protected take(plan: SketchPlan, rest: Rest): boolean {
     if (plan === this.plan && rest === this.rest) return false;
     const begin = performance.now();
     const before = this.plan;
@@ -129,16 +128,13 @@ export class SketchStage extends Stage<SketchPlan> {
     return this.#finisher ? undefined : this.#sketch.refinement;
   }
 
-  get #result(): Pick<Sketch, "positions" | "normals"> {
+  protected get result(): Result {
     return this.#finisher?.deformer ?? this.#sketch;
   }
 
-  positions<T extends FloatArray>(out: T): T {
-    return this.#result.positions(out);
-  }
-
-  normals<T extends FloatArray>(out: T): T {
-    return this.#result.normals(out);
+  protected guides(): (vertex: number) => boolean {
+    const labels = this.#sketch.labels();
+    return (vertex) => labels[vertex] > 0;
   }
 
   protected override labels(): Uint32Array {

@@ -1,6 +1,5 @@
 // A step with a solver: a deformer over the rest shape, kept as long as the step's document allows.
 
-import type { FloatArray } from "../boundary/check.js";
 import type { State } from "../boundary/state.js";
 import { Deformer, drive } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
@@ -10,7 +9,7 @@ import type { Rest } from "./rest.js";
 import { checkedRoles, reach, type Roles, sameGoal } from "./roles.js";
 import { same } from "./same.js";
 import { copied, type Phase, solvedReport, Solving } from "./solving.js";
-import { Stage, type StageStep } from "./stage.js";
+import { type Result, Stage, type StageStep } from "./stage.js";
 import type { StageMoment, StepReport } from "./types.js";
 
 type Given = Readonly<Record<string, unknown>>;
@@ -108,7 +107,7 @@ export class SolverStage extends Stage<SolverPlan> {
     return this.plan.options.method;
   }
 
-  prepare(plan: SolverPlan, rest: Rest): boolean {
+  protected take(plan: SolverPlan, rest: Rest): boolean {
     if (plan === this.plan && rest === this.rest && this.#sound) return false;
     const roles = checkedRoles(plan, rest);
     if (!this.#goesOn(plan, rest, roles)) return this.#takeUp(plan, rest, roles);
@@ -190,12 +189,14 @@ export class SolverStage extends Stage<SolverPlan> {
 
   readonly added = undefined;
 
-  positions<T extends FloatArray>(out: T): T {
-    return this.#model.deformer.positions(out);
+  protected get result(): Result {
+    return this.#model.deformer;
   }
 
-  normals<T extends FloatArray>(out: T): T {
-    return this.#model.deformer.normals(out);
+  protected guides(): (vertex: number) => boolean {
+    const { fixed, handles } = this.#model.roles;
+    const held = new Set([fixed, ...handles].flatMap((ids) => [...ids]));
+    return (vertex) => held.has(vertex);
   }
 
   state(): State {

@@ -4,11 +4,12 @@ import type { FloatArray } from "../boundary/check.js";
 import type { State } from "../boundary/state.js";
 import type { Step } from "../deform/deformer.js";
 import type { Refinement } from "../deform/sketch.js";
+import { Followers, type Made } from "./follow.js";
 import { extendedLabels, grown } from "./growth.js";
 import type { StepPlan } from "./plan.js";
 import { Rest } from "./rest.js";
 import { shared } from "./same.js";
-import type { StageMoment, StepReport } from "./types.js";
+import type { FollowState, StageMoment, StepReport } from "./types.js";
 
 /** One iteration, and of what. */
 export interface StageStep extends Step {
@@ -16,6 +17,12 @@ export interface StageStep extends Step {
   entry: number;
   /** Accepted iterations of it so far. */
   done: number;
+}
+
+/** `dimension` numbers a vertex, those of the rest shape and the added ones; unit normals, three numbers a vertex. */
+export interface Result {
+  positions<T extends FloatArray>(out: T): T;
+  normals<T extends FloatArray>(out: T): T;
 }
 
 export abstract class Stage<P extends StepPlan = StepPlan> {
@@ -27,16 +34,17 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   /** What models that stood here before have cost. */
   protected readonly past = { factorizations: 0, analyses: 0 };
 
+  #followers: Followers;
+
   /** What it stands for and over; both change in `prepare` alone. */
-  constructor(protected plan: P, protected rest: Rest) {}
+  constructor(protected plan: P, protected rest: Rest) {
+    this.#followers = Followers.of(plan, rest);
+  }
 
   abstract readonly method: string;
 
-  /**
-   * Takes the step over a rest shape and keeps what it can; no iteration. Whether anything is different. Errors: then
-   * nothing is.
-   */
-  abstract prepare(plan: P, rest: Rest): boolean;
+  /** As `prepare`, without the parts that follow. */
+  protected abstract take(plan: P, rest: Rest): boolean;
   /** Nothing is left to do. */
   abstract readonly done: boolean;
   /** One iteration. Errors: the result is then as before. */
@@ -46,10 +54,10 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
 
   /** Vertices that refinement added to the rest shape. */
   abstract readonly added: Refinement | undefined;
-  /** `dimension` numbers a vertex, those of the rest shape and the added ones. */
-  abstract positions<T extends FloatArray>(out: T): T;
-  /** Unit normals, three numbers a vertex. */
-  abstract normals<T extends FloatArray>(out: T): T;
+  /** What the step makes of the vertices, without the parts that follow. */
+  protected abstract readonly result: Result;
+  /** Whether the step itself says where a vertex is to be. */
+  protected abstract guides(): (vertex: number) => boolean;
   /** Of the step alone, as `EditResult.state`. */
   abstract state(): State;
   abstract report(): StepReport;
@@ -61,6 +69,48 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   protected abstract save(): Omit<StageMoment, "source">;
   /** As `prepare`, at a moment of the same step over the same rest shape. */
   protected abstract bringBack(plan: P, rest: Rest, moment: StageMoment): void;
+
+  /**
+   * Takes the step over a rest shape and keeps what it can; no iteration. Whether anything is different. Errors: then
+   * nothing is.
+   */
+  prepare(plan: P, rest: Rest): boolean {
+    const followers = Followers.of(plan, rest, this.#followers);
+    const changed = this.take(plan, rest);
+    return this.#follow(followers) || changed;
+  }
+
+  #follow(followers: Followers): boolean {
+    if (followers === this.#followers) return false;
+    const other = followers.parts.length > 0 || this.#followers.parts.length > 0;
+    this.#followers = followers;
+    if (other) this.changed();
+    return other;
+  }
+
+  /** `dimension` numbers a vertex, those of the rest shape and the added ones. */
+  positions<T extends FloatArray>(out: T): T {
+    this.result.positions(out);
+    this.#followers.carry(this.#made, out);
+    return out;
+  }
+
+  /** Unit normals, three numbers a vertex. */
+  normals<T extends FloatArray>(out: T): T {
+    this.result.normals(out);
+    this.#followers.turn(this.#made, out);
+    return out;
+  }
+
+  get #made(): Made {
+    const length = () => this.rest.dimension * this.vertices;
+    return { positions: () => this.result.positions(new Float64Array(length())), guides: () => this.guides() };
+  }
+
+  /** The parts that have followed. */
+  followed(): FollowState[] {
+    return this.#followers.state(this.#made);
+  }
 
   /** Whether it can stand for this step. */
   carries(plan: StepPlan): plan is P {
@@ -126,7 +176,9 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
       this.prepare(plan, rest);
       return;
     }
+    const followers = Followers.of(plan, rest, this.#followers);
     this.bringBack(plan, rest, moment);
+    this.#followers = followers;
     this.changed();
   }
 
@@ -153,6 +205,7 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   /** The result is another one from now on. */
   protected changed(): void {
     this.#stands = false;
+    this.#followers.forget();
     this.#next?.dispose();
     this.#next = undefined;
   }

@@ -44,6 +44,22 @@ export interface SolverStep {
   handles?: readonly ScriptHandle[];
   /** iterations: 100 in all. tolerance: 1e-6. */
   solve?: { iterations?: number; tolerance?: number };
+  follow?: readonly ScriptFollow[];
+}
+
+/** A loose part, which a method that follows the surface leaves behind: it goes along with what it lies on. */
+export interface ScriptFollow {
+  /** Moves as one, unless the step itself fixes, moves or draws on a vertex of it. */
+  select: Selection;
+  /** By the rigid motion that takes these vertices closest to where the step puts them. */
+  along: Selection;
+}
+
+/** A part that has followed: x -> rotation x + translation, rotation row by row. */
+export interface FollowState {
+  vertices: number[];
+  rotation: number[];
+  translation: number[];
 }
 
 /** One limb, chosen by a stroke and posed by at least one of bend, twist, scale and turning, which add up. */
@@ -79,6 +95,7 @@ export interface ScriptSketch {
    * (0.05) are its handle.
    */
   finish?: ScriptMethod & { spacing?: number; solve?: { iterations?: number; tolerance?: number } };
+  follow?: readonly ScriptFollow[];
 }
 
 /** Vertices are put somewhere, and nothing is solved. */
