@@ -8,16 +8,11 @@ import { remesh } from "../../web-demo/shapes/remesh.mjs";
 // @ts-expect-error: the same
 import { ball, tube } from "../../web-demo/shapes/parts.mjs";
 import { History } from "../../web-demo/src/edit/history.ts";
-import {
-  asTransform, atRest, bestMotion, quaternionOf, rotated, rotationVector, type Vec3,
-} from "../../web-demo/src/edit/motion.ts";
+import { asTransform, atRest, motionOf, quaternionOf, rotated, rotationVector, type Vec3 } from "../../web-demo/src/edit/motion.ts";
 import { shared } from "../../bindings/js/edit/same.ts";
-import { bumpyPlane } from "../../web-demo/src/shapes/bumpy_plane.ts";
 import { decodeMesh, type PlainMesh } from "../../web-demo/src/shapes/decode.ts";
 import { subdivide } from "../../web-demo/src/shapes/subdivide.ts";
-import { patchAround, topologyOf } from "../../web-demo/src/shapes/topology.ts";
 import { triangulate } from "../../web-demo/src/shapes/triangulate.ts";
-import { nodeEnergies } from "../../web-demo/src/view/graph_view.ts";
 
 interface Mesh {
   points: number[][];
@@ -49,27 +44,17 @@ describe("motions", () => {
     expect(Math.hypot(...motion.rotation)).toBeLessThan(1e-9);
   });
 
+  test("the library's rigid motion of what stays is none", () => {
+    expect(motionOf({ rotate: { axis: [0, 0, 1], degrees: 0, about: [1, 2, 3] }, translate: [0, 0, 0] })).toEqual(atRest);
+    const { rotation, translate } = motionOf({ rotate: { axis: [0, 1, 0], degrees: 90, about: [0, 0, 0] }, translate: [1, 2, 3] });
+    expect([rotation, translate]).toEqual([[0, Math.PI / 2, 0], [1, 2, 3]]);
+  });
+
   test("a rotation vector stands for its quaternion", () => {
     for (const near of [[0, 0, 0], [7, 1, -2], [-4, 9, 0]] as Vec3[]) {
       const q = new Quaternion(0.3, -0.5, 0.2, 0.4).normalize();
       expect(Math.abs(quaternionOf(rotationVector(q, near)).dot(q))).toBeCloseTo(1, 12);
     }
-  });
-
-  test("the best rigid motion is the one that was applied", () => {
-    const rest = Float64Array.from({ length: 60 }, (_, i) => Math.sin(7 * i) + (i % 3));
-    const turn = quaternionOf([0.9, -1.4, 1.2]);
-    const now = rest.slice();
-    for (let v = 0; v < 20; v++)
-      new Vector3()
-        .fromArray(rest, 3 * v)
-        .applyQuaternion(turn)
-        .add(new Vector3(3, -1, 2))
-        .toArray(now, 3 * v);
-    const vertices = Array.from({ length: 20 }, (_, v) => v);
-    const motion = bestMotion(rest, now, vertices);
-    expect(Math.abs(quaternionOf(motion.rotation).dot(turn))).toBeCloseTo(1, 9);
-    expect(bestMotion(rest, rest, vertices)).toEqual(atRest);
   });
 });
 
@@ -165,44 +150,4 @@ describe("shapes", () => {
     }
     expect(area).toBeCloseTo(Math.PI, 1);
   });
-
-  test("a patch is what can be reached within its ball; copies of a vertex go together", () => {
-    const plane = bumpyPlane(21);
-    const topology = topologyOf(plane);
-    const center = [...plane.positions.subarray(3 * 220, 3 * 220 + 3)];
-    expect([...patchAround(topology, plane.positions, 220, center, 0)]).toEqual([220]);
-    const patch = patchAround(topology, plane.positions, 220, center, 0.25);
-    expect(patch.length).toBeGreaterThan(9);
-    for (const v of patch) {
-      expect(Math.hypot(...center.map((x, k) => x - plane.positions[3 * v + k]!))).toBeLessThanOrEqual(0.25);
-    }
-    // The same surface as loose triangles: still joined, by position.
-    const positions = Float32Array.from(plane.triangles, (_, i) => i).length;
-    const soup = {
-      ...plane,
-      positions: Float32Array.from(
-        [...plane.triangles].flatMap((v) => [...plane.positions.subarray(3 * v, 3 * v + 3)]),
-      ),
-      triangles: Uint32Array.from({ length: positions }, (_, i) => i),
-    };
-    const seed = plane.triangles.indexOf(220);
-    const loose = patchAround(topologyOf(soup), soup.positions, seed, center, 0.25);
-    expect(new Set([...loose].map((i) => plane.triangles[i]))).toEqual(new Set(patch));
-  });
-});
-
-test("nodes of a rigidly moved graph have no energy, those of a stretched one have", () => {
-  const nodes = [[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]];
-  const edges = [[0, 1], [0, 2], [0, 3], [1, 2]];
-  const [c, s] = [Math.cos(1), Math.sin(1)];
-  const turn = [c, -s, 0, s, c, 0, 0, 0, 1];
-  const moved = nodes.map(([x, y, z]) => [c * x! - s * y! - x! + 5, s * x! + c * y! - y!, 0 * z!]);
-  expect(
-    Math.max(...nodeEnergies({ nodes, edges, rotations: nodes.map(() => turn), translations: moved }, 1)),
-  ).toBeLessThan(1e-24);
-  const stretched = nodes.map(([x]) => [x!, 0, 0]);
-  const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
-  expect(
-    nodeEnergies({ nodes, edges, rotations: nodes.map(() => identity), translations: stretched }, 1)[1],
-  ).toBeGreaterThan(1);
 });

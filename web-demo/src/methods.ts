@@ -133,5 +133,6 @@ export const hasLoad = (id: string, options: Options): boolean => {
 export const isPainting = (id: string, options: Options): boolean =>
   ofType(methodOf(id), "field").some(({ key }) => options[key] === "painted");
 
-/** Whether points beside the shape follow it. */
-export const carriesSpace = (id: string): boolean => id !== "" && methodOf(id).carries;
+/** Loose parts follow what they lie on, unless the method carries all of space; "": a sketch alone. */
+export const followOf = (id: string, { loose = [] }: ShapeData): { follow?: NonNullable<ShapeData["loose"]> } =>
+  (loose.length === 0 || (id !== "" && methodOf(id).carries) ? {} : { follow: loose });

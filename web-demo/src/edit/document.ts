@@ -1,7 +1,6 @@
 // What a visitor has made: immutable values, so that undo is a matter of keeping the old one.
-import type { Rider } from "../shapes/riders.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
-import { defaultOptions, hasLoad, methodOf, methods, scriptOptions, type Options } from "../methods.ts";
+import { defaultOptions, followOf, hasLoad, methodOf, methods, scriptOptions, type Options } from "../methods.ts";
 import { asTransform, atRest, centroid, inPlane, isAtRest, type Motion, type Vec3 } from "./motion.ts";
 import type { DocumentStep, EditDocument, EditRun } from "../solver/pliant.ts";
 import { chosenStep, isPosed, sketchStep, type SketchDoc } from "./sketch_doc.ts";
@@ -82,10 +81,10 @@ export function withConstraints(doc: Doc, change: Partial<Pick<Doc, "fixed" | "h
 }
 
 /** The next step: over another rest shape, with the same regions, everything at rest in it. */
-export function onTop(doc: Doc, shape: ShapeData, steps: readonly DocumentStep[]): Doc {
+export function onTop(doc: Doc, shape: ShapeData, step: DocumentStep): Doc {
   const handles = doc.handles.filter((h) => !h.held).map((h) => makeHandle(shape, h.id, h.name, h.vertices));
   const grab = freshGrab(handles, doc.options);
-  return { ...doc, shape, done: [...doc.done, ...steps], handles, grab, sketch: undefined };
+  return { ...doc, shape, done: [...doc.done, step], handles, grab, sketch: undefined };
 }
 
 /** Nothing done: the shape as it was opened, the regions as they are. */
@@ -113,6 +112,13 @@ function vertexIds(shape: ShapeData, inside: (v: number) => boolean): Uint32Arra
 const point = (shape: ShapeData, v: number): [number, number, number] =>
   [shape.positions[3 * v]!, shape.positions[3 * v + 1]!, shape.positions[3 * v + 2]!];
 
+/** The vertices in the lowest part of a shape, a share of its height. */
+function lowest(shape: ShapeData, share: number): Uint32Array {
+  const { min, max } = boundingBox(shape.positions);
+  const low = min[1] + share * (max[1] - min[1]);
+  return vertexIds(shape, (v) => shape.positions[3 * v + 1]! <= low);
+}
+
 /** The pose a visitor finds: the catalog's, or for a file the lowest tenth fixed and no handle. */
 export function startingDoc(shape: ShapeData, like?: Pick<Doc, "method" | "options">): Doc {
   const method = shape.start?.method ? methodOf(shape.start.method) : like ? methodOf(like.method) : methods[0]!;
@@ -123,11 +129,9 @@ export function startingDoc(shape: ShapeData, like?: Pick<Doc, "method" | "optio
     const vertices = vertexIds(shape, near);
     if (vertices.length > 0) handles.push(makeHandle(shape, handles.length + 1, name, vertices));
   }
-  const { min, max } = boundingBox(shape.positions);
-  const low = min[1] + 0.1 * (max[1] - min[1]);
-  const rule = shape.start?.fixed ?? (([, y]: readonly number[]) => y! <= low);
   const moved = new Set(handles.flatMap((h) => [...h.vertices]));
-  const fixed = vertexIds(shape, (v) => !moved.has(v) && rule(point(shape, v)));
+  const rule = shape.start?.fixed;
+  const fixed = rule ? vertexIds(shape, (v) => !moved.has(v) && rule(point(shape, v))) : lowest(shape, 0.1);
   return {
     opened: shape, shape, done: [], sketch: undefined, method: method.id, options, fixed, handles,
     grab: freshGrab(handles, options),
@@ -233,13 +237,14 @@ function grabStep(doc: Doc, entries: readonly DragEntry[], iterations: number): 
     options: scriptOptions(doc.method, doc.grab.options, doc.shape),
     ...regionsOf(doc),
     solve: { iterations, tolerance },
+    ...followOf(doc.method, doc.shape),
     ...(drag.length > 0 ? { drag } : {}),
   } as DocumentStep;
 }
 
 /** The present step as it stands, without what is still to come of it; undefined: it changes nothing. */
 export function finishedStep(doc: Doc): DocumentStep | undefined {
-  if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch) : undefined;
+  if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch, doc.shape) : undefined;
   const { entries, solved, settled, cut = settled ? patience : Math.max(1, solved) } = doc.grab;
   return asksForSomething(doc) ? grabStep(doc, entries, cut) : undefined;
 }
@@ -247,16 +252,7 @@ export function finishedStep(doc: Doc): DocumentStep | undefined {
 const asksForSomething = (doc: Doc) =>
   hasMoved(doc) || hasLoad(doc.method, doc.grab.options) || hasLoad(doc.method, doc.options);
 
-/** Loose parts are put where they ride; `positions` are those after it. */
-export function placeStep(riders: readonly Rider[], positions: ArrayLike<number>): DocumentStep {
-  const vertices = riders.flatMap((rider) => [...rider.vertices]).sort((a, b) => a - b);
-  const targets = vertices.map((v) => [positions[3 * v]!, positions[3 * v + 1]!, positions[3 * v + 2]!]);
-  return { method: "place", parts: [{ name: "loose parts", select: { vertices }, targets }] };
-}
-
-const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({
-  format: "pliant-edit", version: 1, steps, seed: 1,
-});
+const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({ format: "pliant-edit", version: 1, steps, seed: 1 });
 const documents = new WeakMap<Doc, EditDocument>();
 
 /** What the living edit is to carry out; undefined: the shape is at rest. The same document gives the same object. */
@@ -271,7 +267,7 @@ export function liveDocument(doc: Doc): EditDocument | undefined {
 }
 
 function liveStep(doc: Doc): DocumentStep | undefined {
-  if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch) : chosenStep(doc.sketch);
+  if (doc.sketch) return isPosed(doc.sketch) ? sketchStep(doc.sketch, doc.shape) : chosenStep(doc.sketch);
   const { entries, cut = patience } = doc.grab;
   return doc.handles.length > 0 || hasLoad(doc.method, doc.grab.options)
     ? grabStep(doc, open(entries), cut)
@@ -281,11 +277,11 @@ function liveStep(doc: Doc): DocumentStep | undefined {
 /** A document that ends as the present stands: see `finishedStep`. */
 export const finishedDocument = (doc: Doc, step: DocumentStep): EditDocument => documentOf([...doc.done, step]);
 
-/** The document as an edit script (docs/edit-script.md), with steps that follow the present one. */
-export function editScript(doc: Doc, after: readonly DocumentStep[] = []): EditDocument {
+/** The document as an edit script (docs/edit-script.md). */
+export function editScript(doc: Doc): EditDocument {
   const grab = asksForSomething(doc) || doc.done.length === 0 ? grabStep(doc, doc.grab.entries, patience) : undefined;
   const present = doc.sketch ? finishedStep(doc) : grab;
-  return documentOf(present ? [...doc.done, present, ...after] : doc.done);
+  return documentOf(present ? [...doc.done, present] : doc.done);
 }
 
 export const hasMoved = (doc: Doc): boolean =>

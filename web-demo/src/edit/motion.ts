@@ -1,6 +1,7 @@
 // How a handle is moved from rest: a turn about its centre, then a shift. The turn is a rotation
 // vector (axis times angle) and counts turns: 270 degrees is not -90.
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Quaternion, Vector3 } from "three";
+import type { RigidTransform } from "../solver/pliant.ts";
 
 export type Vec3 = readonly [number, number, number];
 
@@ -67,34 +68,8 @@ export function centroid(positions: ArrayLike<number>, vertices: ArrayLike<numbe
   return sum.divideScalar(vertices.length).toArray();
 }
 
-/**
- * The rigid motion that best carries the rest positions of some vertices to their present ones:
- * the closest rotation by the iteration of Müller et al., "A robust method to extract the rotational
- * part of deformations" (2016).
- */
-export function bestMotion(rest: ArrayLike<number>, now: ArrayLike<number>, vertices: ArrayLike<number>): Motion {
-  const [from, to] = [centroid(rest, vertices), centroid(now, vertices)];
-  const covariance = new Float64Array(9); // rows: now, columns: rest
-  for (let i = 0; i < vertices.length; i++) {
-    const a = pick(rest, vertices[i]!).sub(new Vector3(...from)).toArray();
-    const b = pick(now, vertices[i]!).sub(new Vector3(...to)).toArray();
-    for (let r = 0; r < 3; r++) for (let c = 0; c < 3; c++) covariance[3 * r + c]! += b[r]! * a[c]!;
-  }
-  const q = new Quaternion();
-  const column = (c: number) => new Vector3(covariance[c], covariance[3 + c], covariance[6 + c]);
-  for (let i = 0; i < 60; i++) {
-    const turn = new Matrix4().makeRotationFromQuaternion(q);
-    const omega = new Vector3();
-    let scale = 1e-12;
-    for (let c = 0; c < 3; c++) {
-      const axis = new Vector3().setFromMatrixColumn(turn, c);
-      omega.add(axis.clone().cross(column(c)));
-      scale += Math.abs(axis.dot(column(c)));
-    }
-    omega.divideScalar(scale);
-    const angle = omega.length();
-    if (angle < 1e-9) break;
-    q.premultiply(new Quaternion().setFromAxisAngle(omega.divideScalar(angle), angle)).normalize();
-  }
-  return { translate: [to[0] - from[0], to[1] - from[1], to[2] - from[2]], rotation: rotationVector(q) };
+/** As the library tells a rigid motion, about the centroid of what it moves. */
+export function motionOf({ rotate: { axis, degrees }, translate }: RigidTransform): Motion {
+  const [x, y, z] = axis.map((component) => (component * degrees * Math.PI) / 180);
+  return { translate: translate as number[] as [number, number, number], rotation: [x!, y!, z!] };
 }

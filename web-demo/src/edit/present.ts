@@ -1,19 +1,16 @@
 // The present: a document, the solver that carries it out, and what of it is on the screen, kept in step.
 import type { Options } from "../methods.ts";
 import { turn } from "../files/turn.ts";
-import { Meter, signedVolume, type Measures } from "../shapes/measure.ts";
+import { Meter, type Measures } from "../shapes/measure.ts";
 import { refinedShape } from "../shapes/refined.ts";
-import { mostRiders } from "../shapes/riders.ts";
 import { vertexCount, type ShapeData } from "../shapes/shape.ts";
-import { topologyOf, type Topology } from "../shapes/topology.ts";
-import { EditClient, type Picture } from "../solver/edit_client.ts";
-import type { EditMoment, EditRun, ShapeReport, SketchView, State } from "../solver/pliant.ts";
+import { EditClient, type Picture, type ShapeFacts } from "../solver/edit_client.ts";
+import type { EditMoment, EditRun, SketchView, Spot, State } from "../solver/pliant.ts";
 import {
   editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withMotion, withRun,
   type Doc, type HandleDoc,
 } from "./document.ts";
-import { LooseParts } from "./loose_parts.ts";
-import type { Motion } from "./motion.ts";
+import { motionOf, type Motion } from "./motion.ts";
 import { RestDetector } from "./rest_detector.ts";
 import {
   fromHeld, isPosed, posed, type Pixel, type PoseChange, type SketchCamera, type SketchDoc,
@@ -40,7 +37,6 @@ export class Present {
   private client!: EditClient;
   private meter!: Meter;
   private readonly restDetector = new RestDetector();
-  private readonly looseParts = new LooseParts();
   /** A pose that is shown and not in the document, yet. */
   private previewed: SketchDoc | undefined;
 
@@ -49,10 +45,9 @@ export class Present {
   sketched: SketchView | undefined;
   /** The shape on the screen: the document's, or with what refinement added. */
   shown!: ShapeData;
-  private joined: Topology | undefined;
   /** A closed surface whose triangles look outwards: its inside is never seen. */
   solid = false;
-  report!: ShapeReport & { diagonal: number };
+  report!: ShapeFacts;
   positions!: Float32Array;
   normals!: Float32Array;
   state: State | undefined;
@@ -87,9 +82,16 @@ export class Present {
     return this.doc.handles.find((h) => h.id === id);
   }
 
-  /** What lies beside what, found when it is first asked for. */
-  get topology(): Topology {
-    return (this.joined ??= topologyOf(this.doc.shape));
+  /** The vertices that a brush touches in some places on the screen, ascending. */
+  patch(spots: readonly Required<Spot>[], radius: number): Promise<Uint32Array> {
+    const { shape } = this.doc;
+    return this.client.patch(shape, spots, radius, this.positions.subarray(0, 3 * vertexCount(shape)));
+  }
+
+  /** How some vertices have moved from rest, as a whole. */
+  async motionOf(vertices: Uint32Array): Promise<Motion> {
+    const at = (positions: Float32Array) => Float32Array.from({ length: 3 * vertices.length }, (_, i) => positions[3 * vertices[Math.floor(i / 3)]! + (i % 3)]!);
+    return motionOf(await this.client.rigidMotion(at(this.doc.shape.positions), at(this.positions)));
   }
 
   /** The newest figures there are; a frame is told when there are others. */
@@ -104,7 +106,7 @@ export class Present {
 
   /** What was done as an edit script: replaying it gives the shape on the screen. */
   script(): ReturnType<typeof editScript> {
-    return editScript(this.doc, this.looseParts.steps(this.doc, this.positions.slice()));
+    return editScript(this.doc);
   }
 
   /** How it is now, to come back to. */
@@ -143,20 +145,13 @@ export class Present {
     if (!doc.sketch) this.client.wake();
   }
 
-  private takeShape({ opened, shape }: Doc, report: ShapeReport & { diagonal: number }): void {
+  private takeShape({ opened, shape }: Doc, facts: ShapeFacts): void {
     const first = opened !== (this.doc as Doc | undefined)?.opened;
-    this.report = { ...report, vertices: vertexCount(shape), triangles: shape.triangles.length / 3 };
-    this.joined = undefined;
-    // Loose parts that ride are few; a soup or a scan in one piece need not be looked through.
-    if (report.components > 1 && report.components <= 1 + mostRiders) {
-      this.looseParts.take(shape, (this.joined = topologyOf(shape)));
-    }
-    else this.looseParts.take(shape, undefined);
+    this.report = { ...facts, vertices: vertexCount(shape), triangles: shape.triangles.length / 3 };
     if (!first && this.meter) return;
-    const closed = opened.triangles.length > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;
-    this.solid = closed && signedVolume(opened) > 0;
-    void this.meter?.dispose();
-    this.meter = new Meter(opened, () => this.events.frame());
+    this.solid = facts.outwards;
+    this.meter?.end();
+    this.meter = new Meter(opened, (positions) => this.client.measure(opened, positions), () => this.events.frame());
   }
 
   private async finishSketch(): Promise<void> {
@@ -181,10 +176,6 @@ export class Present {
     return this.client.limbStroke(shape, camera, pixel);
   }
 
-  private findRiders(): void {
-    this.looseParts.find(this.doc, this.sketched?.labels);
-  }
-
   /** The document with the present step among the finished ones, if it did anything. */
   async finished(): Promise<Doc> {
     await this.client.halt();
@@ -192,8 +183,7 @@ export class Present {
     const step = finishedStep(doc);
     if (!step || (!doc.sketch && !this.sketchable)) return { ...doc, sketch: undefined };
     const exact = await this.client.exact(finishedDocument(doc, step), vertexCount(this.shown));
-    const steps = [step, ...this.looseParts.steps(doc, exact)];
-    return onTop(doc, { ...this.shown, positions: Float32Array.from(exact), exact }, steps);
+    return onTop(doc, { ...this.shown, positions: Float32Array.from(exact), exact }, step);
   }
 
   // -- What changes in it while it stays ------------------------------------------------------------
@@ -214,7 +204,6 @@ export class Present {
   /** Other constraints; the edit has them with the next frame. */
   setConstraints(change: Partial<Pick<Doc, "fixed" | "handles">>): void {
     this.doc = withConstraints(this.doc, change);
-    this.findRiders();
     this.events.change();
     this.client.wake();
   }
@@ -251,8 +240,6 @@ export class Present {
     this.sketched = limb;
     this.shown = refinedShape(this.doc.shape, limb?.refinement);
     Object.assign(this, { positions, normals, state: limb ? undefined : state });
-    this.findRiders();
-    this.looseParts.carry(this.doc, this.positions, this.normals);
     this.doc = withRun(this.doc, run);
   }
 

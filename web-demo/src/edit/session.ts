@@ -4,13 +4,13 @@ import { defaultOptions, methodOf, type Options, type OptionValue } from "../met
 import type { ShapeData } from "../shapes/shape.ts";
 import { backAtRest, freshGrab, makeHandle, startingDoc, type Doc } from "./document.ts";
 import { History } from "./history.ts";
-import { bestMotion, type Motion } from "./motion.ts";
+import type { Motion } from "./motion.ts";
 import { Present, type Moment, type PresentEvents } from "./present.ts";
 import {
   newSketch, posed, seenAgain, type Pixel, type PoseChange, type SketchCamera, type SketchDoc,
 } from "./sketch_doc.ts";
 import { freshId, heldUnmoved, unmovedIn, withoutHeld } from "./unmoved.ts";
-import { connect } from "../solver/pliant.ts";
+import { connect, type Spot } from "../solver/pliant.ts";
 
 /** `change` also tells of the history; after a `problem` the session stands as before. */
 export type SessionEvents = Omit<PresentEvents, "settled">;
@@ -141,22 +141,28 @@ export class Session {
 
   // -- What changes the constraints ---------------------------------------------------------------
 
-  /**
-   * A handle on some vertices where they are now; those of other handles are left to them. Its id, at once; undefined:
-   * none are left.
-   */
-  addHandle(vertices: Uint32Array): number | undefined {
-    const { doc, positions } = this.present;
-    if (doc.sketch) return undefined;
-    const taken = new Set(doc.handles.filter((h) => !h.held).flatMap((h) => [...h.vertices]));
-    const own = vertices.filter((v) => !taken.has(v));
-    if (own.length === 0) return undefined;
+  /** A handle on a patch of the shape where it is now; vertices of other handles are left to them. Its id; undefined: none are left. */
+  async addHandle(spot: Required<Spot>, radius: number): Promise<number | undefined> {
+    let id: number | undefined;
+    await this.exclusive(async () => {
+      const patch = await this.present.patch([spot], radius);
+      const { doc } = this.present;
+      const taken = new Set(doc.handles.filter((h) => !h.held).flatMap((h) => [...h.vertices]));
+      const own = patch.filter((v) => !taken.has(v));
+      if (doc.sketch || own.length === 0) return;
+      id = this.placeHandle(own, await this.present.motionOf(own));
+    });
+    if (id !== undefined) void this.exclusive(() => this.commit(this.present.doc));
+    return id;
+  }
+
+  private placeHandle(vertices: Uint32Array, motion: Motion): number {
+    const { doc } = this.present;
     const id = freshId(doc);
-    const handle = makeHandle(doc.shape, id, `handle-${id}`, own, bestMotion(doc.shape.positions, positions, own));
-    const mine = new Set(own);
-    const fixed = doc.fixed.filter((v) => !mine.has(v));
+    const handle = makeHandle(doc.shape, id, `handle-${id}`, vertices, motion);
+    const mine = new Set(vertices);
     this.present.selected = id;
-    void this.constrain({ fixed, handles: [...withoutHeld(doc.handles, mine), handle] });
+    this.present.setConstraints({ fixed: doc.fixed.filter((v) => !mine.has(v)), handles: [...withoutHeld(doc.handles, mine), handle] });
     return id;
   }
 
@@ -171,13 +177,15 @@ export class Session {
     return unmovedIn(this.present.doc);
   }
 
-  /**
-   * Replaces what does not move; vertices of handles stay with them. What has left its rest is held where it is now.
-   */
-  setUnmoved(vertices: Iterable<number>): Promise<boolean> {
-    const { doc, positions, report } = this.present;
-    if (doc.sketch) return Promise.resolve(false);
-    return this.constrain(heldUnmoved(doc, vertices, positions, 1e-4 * report.diagonal));
+  /** Replaces what does not move, once it is known; vertices of handles stay with them. What has left its rest is held where it is then. */
+  setUnmoved(painted: Promise<Iterable<number>>): Promise<boolean> {
+    return this.exclusive(async () => {
+      const vertices = await painted;
+      const { doc, positions, report } = this.present;
+      if (doc.sketch) return;
+      this.present.setConstraints(heldUnmoved(doc, vertices, positions, 1e-4 * report.diagonal));
+      await this.commit(this.present.doc);
+    });
   }
 
   private constrain(change: Partial<Pick<Doc, "fixed" | "handles">>): Promise<boolean> {

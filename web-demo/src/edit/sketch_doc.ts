@@ -1,4 +1,6 @@
 // A limb under two strokes, as the visitor made it: immutable, like the rest of the document.
+import { followOf } from "../methods.ts";
+import type { ShapeData } from "../shapes/shape.ts";
 import type { DocumentStep } from "../solver/pliant.ts";
 import type { Vec3 } from "./motion.ts";
 
@@ -165,8 +167,8 @@ function drawingOf({ camera, reference, hold, region, partitions, mirror, smooth
 
 const steps = new WeakMap<SketchDoc, DocumentStep>();
 
-/** The step of the edit script (docs/edit-script.md); the same sketch gives the same object. */
-export function sketchStep(sketch: SketchDoc): DocumentStep {
+/** The step of the edit script (docs/edit-script.md), over its shape at rest; the same sketch gives the same object. */
+export function sketchStep(sketch: SketchDoc, shape: ShapeData): DocumentStep {
   const known = steps.get(sketch);
   if (known) return known;
   const { target, unfinished, refine, morph, finish } = sketch;
@@ -176,6 +178,7 @@ export function sketchStep(sketch: SketchDoc): DocumentStep {
     ...profilesOf(sketch),
     morph,
     ...(finish !== "" ? { finish: { method: finish, solve } } : { refine }),
+    ...followOf(finish, shape),
   } as DocumentStep;
   steps.set(sketch, step);
   return step;

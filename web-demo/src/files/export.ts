@@ -1,6 +1,7 @@
 // Downloads: the present, as files.
 import type { WritableShape } from "pliant/worker";
 import type { Present } from "../edit/present.ts";
+import { asFile } from "../shapes/refined.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import { connect } from "../solver/pliant.ts";
 
@@ -19,25 +20,13 @@ export async function download(present: Present, kind: ExportKind): Promise<void
     return;
   }
   const name = `${base}-bent.${kind}`;
-  save(name, types[kind], await (await connect()).write(await asFile(shown, positions), name));
+  save(name, types[kind], await (await connect()).write(await bent(shown, positions), name));
 }
 
 /** What is to be written: the visitor's file with its vertices elsewhere, or the shape as the page knows it. */
-async function asFile(
-  { file, triangles, colors, picture }: ShapeData, positions: Float32Array,
-): Promise<WritableShape> {
-  if (file) return { ...file, positions };
-  const texture = picture && (await png(picture.image));
-  const texcoords =
-    picture &&
-    Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
-  return {
-    positions,
-    triangles,
-    ...(colors ? { colors } : {}),
-    ...(texture ? { texture } : {}),
-    ...(texcoords ? { texcoords } : {}),
-  };
+async function bent(shape: ShapeData, positions: Float32Array): Promise<WritableShape> {
+  const texture = !shape.file && shape.picture ? { texture: await png(shape.picture.image) } : {};
+  return { ...asFile(shape), ...texture, positions };
 }
 
 async function png(image: TexImageSource): Promise<Blob> {

@@ -1,5 +1,6 @@
 // The visitor's own file as a shape: read by the library, in its worker. Whatever goes wrong is said in words.
 import type { ReadOptions, ShapeFile } from "pliant/worker";
+import { ofVertices } from "../shapes/refined.ts";
 import type { LoadedShape, ShapeData } from "../shapes/shape.ts";
 import { connect } from "../solver/pliant.ts";
 import { asCanvas, readPicture } from "./picture.ts";
@@ -37,14 +38,4 @@ async function asShape(file: ShapeFile): Promise<LoadedShape> {
     ...(picture ? { picture: { image: asCanvas(picture, picture.width, picture.height), uv: ofVertices(file) } } : {}),
     ...(!picture && file.colors.length > 0 ? { colors: file.colors } : {}),
   };
-}
-
-/** Texture coordinates of vertices: a .glb has them so. */
-function ofVertices({ positions, faceVertices, texcoords }: ShapeFile): Float32Array {
-  const uv = new Float32Array((2 * positions.length) / 3);
-  for (let corner = 0; corner < faceVertices.length; corner++) {
-    uv[2 * faceVertices[corner]!] = texcoords[2 * corner]!;
-    uv[2 * faceVertices[corner]! + 1] = texcoords[2 * corner + 1]!;
-  }
-  return uv;
 }

@@ -1,20 +1,35 @@
-// A shape with the vertices that refinement added, each in the middle of its parents.
+// A shape with the vertices that refinement added: the library says what becomes of its faces, colours and picture.
+import { refined, type Mesh, type WritableShape } from "pliant/worker";
+import type { Refinement } from "../solver/pliant.ts";
 import type { ShapeData } from "./shape.ts";
 
-interface Refinement {
-  parents: ArrayLike<number>;
-  triangles: Uint32Array;
+/** Texture coordinates of vertices, from those of corners: a shape with a picture has one pair a vertex. */
+export function ofVertices({ positions, faceVertices, texcoords }: Pick<Mesh, "positions" | "faceVertices" | "texcoords">): Float32Array {
+  const uv = new Float32Array((2 * positions.length) / 3);
+  for (let corner = 0; corner < faceVertices.length; corner++) {
+    uv[2 * faceVertices[corner]!] = texcoords[2 * corner]!;
+    uv[2 * faceVertices[corner]! + 1] = texcoords[2 * corner + 1]!;
+  }
+  return uv;
 }
 
-function carried<T extends Uint8Array | Float32Array>(values: T, width: number, parents: ArrayLike<number>): T {
-  const out = new (values.constructor as new (length: number) => T)(values.length + (width * parents.length) / 2);
-  out.set(values);
-  for (let i = 0, at = values.length; i < parents.length; i += 2) {
-    for (let k = 0; k < width; k++, at++) {
-      out[at] = (out[parents[i]! * width + k]! + out[parents[i + 1]! * width + k]!) / 2;
-    }
-  }
-  return out;
+/** What a file of the shape holds. */
+export function asFile({ file, exact, positions, triangles, colors, picture }: ShapeData): WritableShape {
+  if (file) return file;
+  const texcoords = picture && Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
+  return { positions: exact ?? positions, triangles, ...(colors ? { colors } : {}), ...(texcoords ? { texcoords } : {}) };
+}
+
+/** With its faces spelled out, and at rest where the shape is. */
+function meshOf(shape: ShapeData): Mesh {
+  const { triangles, faceVertices, faceOffsets, texcoords, colors } = asFile(shape);
+  const none = new Float64Array(0);
+  return {
+    positions: shape.exact ?? Float64Array.from(shape.positions), triangles: triangles!,
+    faceVertices: faceVertices ?? triangles!,
+    faceOffsets: faceOffsets ?? Uint32Array.from({ length: triangles!.length / 3 + 1 }, (_, i) => 3 * i),
+    texcoords: texcoords ?? none, colors: colors ?? new Uint8Array(0),
+  };
 }
 
 let last: { shape: ShapeData; refinement: Refinement; result: ShapeData } | undefined;
@@ -23,12 +38,13 @@ let last: { shape: ShapeData; refinement: Refinement; result: ShapeData } | unde
 export function refinedShape(shape: ShapeData, refinement: Refinement | undefined): ShapeData {
   if (!refinement || refinement.parents.length === 0) return shape;
   if (last?.shape === shape && last.refinement === refinement) return last.result;
-  const { parents, triangles } = refinement;
-  const { file: _, exact: __, ...rest } = shape; // the file names the old faces only
+  const mesh = refined(meshOf(shape), refinement);
+  const { exact: _, ...rest } = shape;
   const result: ShapeData = {
-    ...rest, triangles, positions: carried(shape.positions, 3, parents),
-    ...(shape.colors ? { colors: carried(shape.colors, 3, parents) } : {}),
-    ...(shape.picture ? { picture: { ...shape.picture, uv: carried(shape.picture.uv, 2, parents) } } : {}),
+    ...rest, positions: Float32Array.from(mesh.positions), triangles: mesh.triangles,
+    ...(shape.file ? { file: { ...mesh, ...(shape.file.texture ? { texture: shape.file.texture } : {}) } } : {}),
+    ...(shape.colors ? { colors: mesh.colors } : {}),
+    ...(shape.picture ? { picture: { ...shape.picture, uv: ofVertices(mesh) } } : {}),
   };
   last = { shape, refinement, result };
   return result;

@@ -1,6 +1,6 @@
 // What the page knows about a shape at rest, wherever it came from.
 
-import type { ShapeFile } from "pliant/worker";
+import type { ScriptFollow as Follow, WritableShape } from "pliant/worker";
 import type { Options } from "../options.ts";
 
 export interface ShapeData {
@@ -18,8 +18,10 @@ export interface ShapeData {
   colors?: Uint8Array;
   /** A picture that lies on the shape: 2 n texture coordinates, v up. */
   picture?: { image: TexImageSource; uv: Float32Array };
-  /** The file it came from: exports keep everything in it but the coordinates. */
-  file?: ShapeFile;
+  /** The file it came from, with what refinement made of it: exports keep everything in it but the coordinates. */
+  file?: WritableShape;
+  /** Small parts that nothing joins to the rest, and what each goes along with; there once it has been shown. */
+  loose?: readonly Follow[];
   /** The pose a visitor finds: regions in rest coordinates. */
   start?: StartPose;
   /** Where the camera looks from, a direction; default: from the front, right and above. */

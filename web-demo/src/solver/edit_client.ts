@@ -3,9 +3,15 @@
 import type { Pixel, SketchCamera } from "../edit/sketch_doc.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import {
-  connect, type EditDocument, type EditMoment, type EditRun, type ShapeReport, type SketchView, type State,
-  type WorkerEdit, type WorkerPliant, type WorkerShape,
+  connect, type EditDocument, type EditMoment, type EditRun, type Quality, type RigidTransform, type ShapeReport, type SketchView, type Spot,
+  type State, type WorkerEdit, type WorkerPliant, type WorkerShape,
 } from "./pliant.ts";
+
+/** What the library says of a shape. `outwards`: a closed surface whose triangles look outwards. */
+export interface ShapeFacts extends ShapeReport {
+  diagonal: number;
+  outwards: boolean;
+}
 
 /** What the screen shows after a run. */
 export interface Picture {
@@ -33,6 +39,10 @@ const frameBudget = 8;
 /** Nothing done. */
 const atRest: EditMoment = { format: "pliant-moment", version: 1, document: undefined, stages: [] };
 
+/** As many numbers a point as the shape has dimensions; in space as they are. */
+const flat = <T extends Float32Array | Float64Array>(positions: T, { dimension }: ShapeData): T =>
+  (dimension === 3 ? positions : positions.filter((_, i) => i % 3 < 2)) as T;
+
 /** Points of the plane, two numbers each, with z = 0. */
 const inSpace = (flat: Float32Array) =>
   Float32Array.from({ length: (flat.length / 2) * 3 }, (_, i) =>
@@ -52,6 +62,8 @@ export class EditClient {
   private data: ShapeData | undefined;
   private shape!: WorkerShape;
   private edit!: WorkerEdit;
+  /** A later step's shape at rest. */
+  private later: { data: ShapeData; shape: WorkerShape } | undefined;
   private running: Promise<void> | undefined;
   private awake = false;
   private interrupted = false;
@@ -66,30 +78,61 @@ export class EditClient {
     return result;
   }
 
-  /** Another shape at rest; the edit of the old one is freed once the new one stands. */
-  open(data: ShapeData): Promise<ShapeReport & { diagonal: number }> {
+  /** Another shape at rest; the edit of the old one is freed once the new one stands. Its loose parts are then known. */
+  open(data: ShapeData): Promise<ShapeFacts> {
     this.stop();
     return this.exclusive(async () => {
       if (this.data !== data) await this.replace(data);
-      return { ...this.shape.report, diagonal: this.shape.diagonal };
+      const { shape: { report, diagonal } } = this;
+      const closed = report.triangles > 0 && report.boundaryEdges === 0 && report.nonManifoldEdges === 0;
+      const volume = closed ? await this.shape.volume() : null;
+      return { ...report, diagonal, outwards: volume !== null && volume > 0 };
     });
   }
 
   private async replace(data: ShapeData): Promise<void> {
-    const plane = data.dimension === 2;
-    const source = data.exact ?? data.positions;
-    const positions = plane ? source.filter((_, i) => i % 3 < 2) : source;
-    const shape = await this.pliant.shape({ positions, triangles: data.triangles, ...(plane ? { dimension: 2 } : {}) });
+    const shape = await this.made(data);
     const edit = await this.pliant.open(shape);
+    const parts = data.loose || shape.report.components === 1 ? [] : await shape.looseParts();
+    data.loose ??= parts.map(({ vertices, beside }) => ({ select: { vertices: [...vertices] }, along: { vertices: [...beside] } }));
     await this.edit?.dispose();
     await this.shape?.dispose();
     [this.data, this.shape, this.edit] = [data, shape, edit];
   }
 
-  /**
-   * A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to
-   * its end.
-   */
+  private made(data: ShapeData): Promise<WorkerShape> {
+    const { triangles, dimension, exact, positions } = data;
+    return this.pliant.shape({ positions: flat(exact ?? positions, data), triangles, dimension });
+  }
+
+  /** The library's own of the shape that was opened, or of a later step at rest: the last one asked for is kept. */
+  private async shapeOf(data: ShapeData): Promise<WorkerShape> {
+    if (data === this.data) return this.shape;
+    if (data !== this.later?.data) {
+      await this.later?.shape.dispose();
+      this.later = { data, shape: await this.made(data) };
+    }
+    return this.later.shape;
+  }
+
+  /** What a brush of some size touches in places on a shape whose vertices are elsewhere now. */
+  patch(data: ShapeData, spots: readonly Required<Spot>[], radius: number, positions: Float32Array): Promise<Uint32Array> {
+    const flatSpots = spots.map(({ vertex, center }) => ({ vertex, center: Array.from(center).slice(0, data.dimension) }));
+    return this.exclusive(async () => (await this.shapeOf(data)).patch(flatSpots, radius, flat(positions, data)));
+  }
+
+  /** The rigid motion that takes points closest to others. */
+  rigidMotion(from: Float32Array, to: Float32Array): Promise<RigidTransform> {
+    return this.pliant.rigidMotion(from, to);
+  }
+
+  /** Deformed positions of the shape that was opened against its rest. Errors: it is another one by now. */
+  measure(data: ShapeData, positions: Float32Array): Promise<Quality> {
+    if (data !== this.data) return Promise.reject(new Error("another shape is open"));
+    return this.pliant.measure(this.shape, flat(positions, data), { intersections: false });
+  }
+
+  /** A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
   enter(
     target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean },
   ): Promise<Picture> {
@@ -123,15 +166,8 @@ export class EditClient {
   }
 
   /** The limb of a mesh under a pixel of the picture, from the body to there. */
-  limbStroke({ exact, positions, triangles }: ShapeData, camera: SketchCamera, pixel: Pixel): Promise<Pixel[]> {
-    return this.exclusive(async () => {
-      const shape = await this.pliant.shape({ positions: exact ?? positions, triangles });
-      try {
-        return await this.pliant.limbStroke(shape, { camera, pixel: [...pixel] });
-      } finally {
-        await shape.dispose();
-      }
-    });
+  limbStroke(data: ShapeData, camera: SketchCamera, pixel: Pixel): Promise<Pixel[]> {
+    return this.exclusive(async () => this.pliant.limbStroke(await this.shapeOf(data), { camera, pixel: [...pixel] }));
   }
 
   /** The moment, and what `of` is just then. */

@@ -1,7 +1,13 @@
 // Handle: a press on the surface puts a handle there; dragging on moves it at once.
-import { patchAround } from "../shapes/topology.ts";
+import type { Hit } from "../view/picking.ts";
 import { HandleDrag } from "./handle_drag.ts";
 import type { Pointer, Stage, Tool } from "./tool.ts";
+
+/** A press whose handle is still being placed. */
+interface Press {
+  to: Pointer;
+  ended: boolean;
+}
 
 export class AddHandle implements Tool {
   readonly id = "handle";
@@ -10,41 +16,50 @@ export class AddHandle implements Tool {
   readonly hint = "Press on the shape to place a handle; keep dragging to move it.";
   readonly size = { min: 0, max: 0.12, start: 0.45 };
   private drag: HandleDrag | undefined;
+  private press: Press | undefined;
 
   constructor(private readonly stage: Stage) {}
 
   down(at: Pointer): boolean {
-    const id = this.place(at);
-    if (id !== undefined) this.drag = new HandleDrag(this.stage, id, "shift", at);
-    return id !== undefined;
+    const hit = this.stage.pick(at.x, at.y);
+    if (!hit || this.stage.present.doc.sketch) return false;
+    const there = this.chosen(hit);
+    if (there !== undefined) this.drag = new HandleDrag(this.stage, there, "shift", at);
+    else void this.place(hit, at, (this.press = { to: at, ended: false }));
+    return true;
   }
   move(at: Pointer): void {
+    if (this.press) this.press.to = at;
     this.drag?.move(at);
   }
   up(): void {
+    if (this.press) this.press.ended = true;
     this.drag?.end();
-    this.drag = undefined;
+    this.drag = this.press = undefined;
   }
   hover(at: Pointer | undefined): void {
     const hit = at && this.stage.pick(at.x, at.y);
     this.stage.showBrush(at && hit ? { ...at, hit } : undefined);
   }
   act(at: Pointer): void {
-    this.place(at);
+    if (this.down(at)) this.up();
   }
 
-  /** The id of the new handle, or of the one that is there already. */
-  private place({ x, y }: Pointer): number | undefined {
-    const hit = this.stage.pick(x, y);
-    if (!hit) return undefined;
+  /** The handle that is there already. */
+  private chosen({ vertex }: Hit): number | undefined {
     const { session, present } = this.stage;
-    const there = present.doc.handles.find((h) => !h.held && h.vertices.includes(hit.vertex));
-    if (there) {
-      session.select(there.id);
-      return there.id;
-    }
-    return session.addHandle(
-      patchAround(present.topology, present.positions, hit.vertex, hit.point.toArray(), this.stage.radius()),
-    );
+    const there = present.doc.handles.find((h) => !h.held && h.vertices.includes(vertex));
+    if (there) session.select(there.id);
+    return there?.id;
+  }
+
+  /** What the pointer has done meanwhile is made up for. */
+  private async place({ vertex, point }: Hit, from: Pointer, press: Press): Promise<void> {
+    const id = await this.stage.session.addHandle({ vertex, center: point.toArray() }, this.stage.radius());
+    if (id === undefined) return;
+    const drag = new HandleDrag(this.stage, id, "shift", from);
+    drag.move(press.to);
+    if (press.ended) drag.end();
+    else this.drag = drag;
   }
 }

@@ -1,5 +1,4 @@
 // Fix and free: a brush that adds vertices to the fixed region or takes them out.
-import { patchAround } from "../shapes/topology.ts";
 import type { IconName } from "../ui/icons.ts";
 import type { Pointer, Stage, Tool } from "./tool.ts";
 
@@ -9,7 +8,9 @@ export class Paint implements Tool {
   readonly label: string;
   readonly icon: IconName;
   readonly hint: string;
-  private stroke: Set<number> | undefined;
+  /** What is still as the stroke leaves it, and what has to be found out before that is so: one dab after the other. */
+  private stroke = new Set<number>();
+  private work: Promise<unknown> = Promise.resolve();
   private last: Pointer | undefined;
 
   constructor(private readonly stage: Stage, private readonly adds: boolean) {
@@ -23,29 +24,30 @@ export class Paint implements Tool {
 
   down(at: Pointer): boolean {
     if (!this.stage.pick(at.x, at.y)) return false;
-    this.stroke = new Set(this.stage.session.unmoved);
+    this.later(() => (this.stroke = new Set(this.stage.session.unmoved)));
     this.last = at;
-    this.dab(at);
+    this.dab([at]);
     return true;
   }
 
   move(at: Pointer): void {
     this.hover(at);
-    if (!this.stroke || !this.last) return;
+    const { last } = this;
+    if (!last) return;
     // Dabs close enough to leave no gaps, however fast the pointer was.
-    const distance = Math.hypot(at.x - this.last.x, at.y - this.last.y);
+    const distance = Math.hypot(at.x - last.x, at.y - last.y);
     const steps = Math.min(24, Math.max(1, Math.round(distance / 10)));
-    for (let i = 1; i <= steps; i++) {
-      const t = i / steps;
-      this.dab({ x: this.last.x + t * (at.x - this.last.x), y: this.last.y + t * (at.y - this.last.y) });
-    }
+    this.dab(Array.from({ length: steps }, (_, i) => {
+      const t = (i + 1) / steps;
+      return { x: last.x + t * (at.x - last.x), y: last.y + t * (at.y - last.y) };
+    }));
     this.last = at;
   }
 
   up(): void {
-    if (this.stroke) void this.stage.session.setUnmoved(this.stroke);
-    this.stroke = undefined;
-    this.stage.preview();
+    if (!this.last) return;
+    this.last = undefined;
+    this.work = this.stage.session.setUnmoved(this.work.then(() => this.stroke)).then(() => this.stage.preview());
   }
 
   hover(at: Pointer | undefined): void {
@@ -56,15 +58,24 @@ export class Paint implements Tool {
     if (this.down(at)) this.up();
   }
 
-  private dab({ x, y }: Pointer): void {
-    const hit = this.stage.pick(x, y);
-    if (!hit || !this.stroke) return;
-    const { topology, positions, doc } = this.stage.present;
-    const held = new Set(doc.handles.flatMap((h) => (h.held ? [] : [...h.vertices])));
-    for (const v of patchAround(topology, positions, hit.vertex, hit.point.toArray(), this.stage.radius())) {
-      if (!this.adds) this.stroke.delete(v);
-      else if (!held.has(v)) this.stroke.add(v);
-    }
-    this.stage.preview(this.stroke);
+  private dab(places: readonly Pointer[]): void {
+    const { present } = this.stage;
+    const hits = places.map(({ x, y }) => this.stage.pick(x, y)).filter((hit) => hit !== undefined);
+    if (hits.length === 0) return;
+    const spots = hits.map(({ vertex, point }) => ({ vertex, center: point.toArray() }));
+    const patch = present.patch(spots, this.stage.radius()).catch(() => []); // another shape has been opened meanwhile
+    this.later(async () => {
+      const vertices = await patch;
+      const held = new Set(present.doc.handles.flatMap((h) => (h.held ? [] : [...h.vertices])));
+      for (const v of vertices) {
+        if (!this.adds) this.stroke.delete(v);
+        else if (!held.has(v)) this.stroke.add(v);
+      }
+      this.stage.preview(this.stroke);
+    });
+  }
+
+  private later(job: () => unknown): void {
+    this.work = this.work.then(job);
   }
 }

@@ -23,42 +23,14 @@ export interface GraphState {
   edges: ArrayLike<ArrayLike<number>>;
   rotations: ArrayLike<ArrayLike<number>>;
   translations: ArrayLike<ArrayLike<number>>;
+  /** One a node. */
+  energies: readonly number[];
 }
 
 /** A state that holds a graph of nodes, whatever the method. */
 export function graphIn(state: State | undefined): GraphState | undefined {
   const graph = state as unknown as Partial<GraphState> | undefined;
-  return graph?.nodes && graph.edges && graph.rotations && graph.translations ? (graph as GraphState) : undefined;
-}
-
-/**
- * What each node adds to E_rot + 10 E_reg of Sumner et al. 2007 (eq. 5 and 7, each edge half to either end), a length
- * one unit.
- */
-export function nodeEnergies({ nodes, edges, rotations, translations }: GraphState, unit: number): Float64Array {
-  const energy = new Float64Array(nodes.length);
-  for (let j = 0; j < nodes.length; j++) {
-    const r = rotations[j]!;
-    const column = (a: number, b: number) => r[a]! * r[b]! + r[a + 3]! * r[b + 3]! + r[a + 6]! * r[b + 6]!;
-    energy[j] = column(0, 1) ** 2 + column(0, 2) ** 2 + column(1, 2) ** 2 +
-      (column(0, 0) - 1) ** 2 + (column(1, 1) - 1) ** 2 + (column(2, 2) - 1) ** 2;
-  }
-  const term = (j: number, k: number): number => {
-    let sum = 0;
-    for (let a = 0; a < 3; a++) {
-      let predicted = nodes[j]![a]! + translations[j]![a]!;
-      for (let b = 0; b < 3; b++) predicted += rotations[j]![3 * a + b]! * (nodes[k]![b]! - nodes[j]![b]!);
-      sum += ((predicted - nodes[k]![a]! - translations[k]![a]!) / unit) ** 2;
-    }
-    return 10 * sum;
-  };
-  for (let e = 0; e < edges.length; e++) {
-    const [j, k] = [edges[e]![0]!, edges[e]![1]!];
-    const half = (term(j, k) + term(k, j)) / 2;
-    energy[j]! += half;
-    energy[k]! += half;
-  }
-  return energy;
+  return graph?.nodes && graph.edges && graph.rotations && graph.translations && graph.energies ? (graph as GraphState) : undefined;
 }
 
 export class GraphView {
@@ -105,7 +77,7 @@ export class GraphView {
     if (this.nodes?.count !== count) this.makeNodes(count);
     const nodes = this.nodes!;
     const size = (0.03 * diagonal) / Math.sqrt(Math.max(count, 30) / 30);
-    const energies = nodeEnergies(graph, diagonal / Math.sqrt(count));
+    const { energies } = graph;
     const scale = Math.max(quietest, energies.toSorted()[Math.floor(0.97 * count)]!);
     const color = new Color();
     for (let j = 0; j < count; j++) {
