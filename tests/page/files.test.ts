@@ -1,11 +1,8 @@
 // Files in and out: what is exported is what is on the screen, what is dropped is read or refused in words.
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { NodeIO } from "@gltf-transform/core";
 import { beforeEach, expect, test } from "vitest";
-import { dist, farthest } from "./support/browser.ts";
+import { farthest } from "./support/browser.ts";
+import { drop, exported, shows } from "./support/files.ts";
 import { replay } from "./support/replay.ts";
 import { ask, demo, rest, useVisits, visit } from "./support/visit.ts";
 
@@ -14,29 +11,8 @@ beforeEach(async () => {
   await visit("from a file", { tool: "pose" });
 });
 
-async function exported(kind: "obj" | "glb" | "script"): Promise<{ name: string; bytes: Buffer }> {
-  const [download] = await Promise.all([
-    demo.page.waitForEvent("download"), demo.page.locator(`#export-${kind}`).click(),
-  ]);
-  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
-}
-
-/** Drops a file on the page. */
-async function drop(name: string, content: string): Promise<void> {
-  const transfer = await demo.page.evaluateHandle(([file, text]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([text!], file!));
-    return data;
-  }, [name, content]);
-  await demo.page.dispatchEvent("body", "dragover", { dataTransfer: transfer });
-  await demo.page.dispatchEvent("body", "drop", { dataTransfer: transfer });
-}
-
 const notice = () => demo.page.locator("#notice span").innerText();
 const shape = () => ask((hook) => hook.shape());
-/** Waits until a file is there. */
-const shows = (file: string) => demo.page.waitForFunction((name) => window.pliantDemo.shape().name === name, file);
-
 /** Bends the creature: two drags under one grab, and a handle placed before them. */
 async function bend(): Promise<void> {
   const handle = await demo.handle();
@@ -224,107 +200,6 @@ test.each([
   await demo.drag(handle, { x: handle.x, y: handle.y - 50 });
   expect(farthest(before, await demo.positions(), handle.vertices)).toBeGreaterThan(0.01);
 });
-
-/** A sheet of concave pentagons: arrows beside each other, whose notches no fan of triangles respects. */
-function arrows(columns = 16, rows = 16): { points: number[][]; faces: number[][] } {
-  const points: number[][] = [];
-  const faces: number[][] = [];
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      const at = points.length;
-      // The second lies inside, so that a fan from the first crosses the outline.
-      const corners = [[0, 0], [0.3, 0.45], [0, 1], [1, 1], [1, 0]];
-      for (const [x, y] of corners) {
-        points.push([(column + x!) / columns, (row + y!) / rows, 0.05 * Math.sin(5 * (column + x!))]);
-      }
-      faces.push(corners.map((_, k) => at + k));
-    }
-  }
-  return { points, faces };
-}
-
-const colorOf = (v: number) => [v % 251, (3 * v) % 241, 128];
-
-const text = (lines: readonly string[]) => `${lines.join("\n")}\n`;
-
-const kinds: Record<string, () => string | Uint8Array> = {
-  "polygons.obj": () => {
-    const { points, faces } = arrows();
-    return text([
-      ...points.map((p) => `v ${p.join(" ")}`),
-      ...faces.map((f) => `f ${f.map((v) => v + 1).join(" ")}`),
-    ]);
-  },
-  "textured.obj": () => {
-    const { points, faces } = arrows();
-    return text([
-      "# keeps its words",
-      ...points.flatMap((p) => [`v ${p.join(" ")}`, `vt ${p[0]} ${p[1]}`]),
-      "usemtl red",
-      ...faces.map((f) => `f ${f.map((v) => `${v + 1}/${v + 1}`).join(" ")}`),
-    ]);
-  },
-  "colored.ply": () => {
-    const { points, faces } = arrows();
-    return text([
-      "ply", "format ascii 1.0", `element vertex ${points.length}`,
-      ...["x", "y", "z"].map((name) => `property double ${name}`),
-      ...["red", "green", "blue"].map((name) => `property uchar ${name}`),
-      `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header",
-      ...points.map((p, v) => [...p, ...colorOf(v)].join(" ")),
-      ...faces.map((f) => [5, ...f].join(" ")),
-    ]);
-  },
-};
-
-/** A .glb of the same sheet, made by the library. */
-async function glbSheet(): Promise<Uint8Array> {
-  const { read, write } = (await import(join(dist, "io.js"))) as typeof import("../../bindings/js/io.ts");
-  return write(await read(new TextEncoder().encode(kinds["colored.ply"]!() as string), "sheet.ply"), "sheet.glb");
-}
-
-test.each([...Object.keys(kinds), "sheet.glb"])(
-  "what is done to %s on the page is what the command makes of it",
-  async (name) => {
-    const content = name === "sheet.glb" ? await glbSheet() : kinds[name]!();
-    await demo.page
-      .locator("#file")
-      .setInputFiles({ name, mimeType: "application/octet-stream", buffer: Buffer.from(content as string) });
-    await shows(name);
-    await demo.idle();
-    await demo.page.keyboard.press("3");
-    const { vertices, diagonal } = await shape();
-    const near = await demo.page.evaluate((v) => window.pliantDemo.vertexAt(v), Math.floor(vertices * 0.8));
-    await demo.drag(near, { x: near.x + 20, y: near.y - 60 });
-    expect(farthest(await rest(), await demo.positions())).toBeGreaterThan(0.05 * diagonal);
-    const [positions, script, exported_] = [
-      await demo.positions(), await exported("script"), await exported(name.endsWith("glb") ? "glb" : "obj"),
-    ];
-
-    const folder = mkdtempSync(join(tmpdir(), "pliant-page-"));
-    const path = (file: string) => join(folder, file);
-    writeFileSync(path(name), content);
-    writeFileSync(path("edit.json"), script.bytes);
-    writeFileSync(path(`page-${exported_.name}`), exported_.bytes);
-    const out = `out.${exported_.name.split(".").pop()!}`;
-    execFileSync(process.execPath, [
-      join(dist, "cli.js"), "deform", path(name), "--script", path("edit.json"), "--out", path(out), "--quiet",
-    ]);
-    const { read } = (await import(join(dist, "io.js"))) as typeof import("../../bindings/js/io.ts");
-    const [ours, theirs] = [
-      await read(readFileSync(path(`page-${exported_.name}`)), exported_.name),
-      await read(readFileSync(path(out)), out),
-    ];
-    expect(farthest(ours.positions, positions)).toBeLessThan(1e-6 * diagonal);
-    expect(farthest(theirs.positions, positions)).toBeLessThan(1e-6 * diagonal);
-    expect([ours.faceVertices, ours.faceOffsets, ours.texcoords, ours.colors]).toEqual([
-      theirs.faceVertices, theirs.faceOffsets, theirs.texcoords, theirs.colors,
-    ]);
-    const opened = await read(typeof content === "string" ? new TextEncoder().encode(content) : content, name);
-    expect(await ask((hook) => hook.triangles())).toEqual(Array.from(opened.triangles));
-    rmSync(folder, { recursive: true });
-  },
-);
 
 test("a large file is read in the worker, with a percentage, and can be stopped", async () => {
   const lines = Array.from({ length: 120_000 }, (_, v) => `v ${v % 400} ${Math.floor(v / 400)} ${Math.sin(v / 50)}`);
