@@ -56,8 +56,8 @@ export class Pliant {
   }
 
   /**
-   * The rigid motion that takes points closest to others, by least squares: three numbers a point, as many of both. Where
-   * they leave the turn open (one point, or all on a line) it is the smallest one. Errors: invalid-option.
+   * The rigid motion that takes points closest to others, by least squares: three numbers a point, as many of both.
+   * Where they leave the turn open (one point, or all on a line) it is the smallest one. Errors: invalid-option.
    */
   rigidMotion(from: ArrayLike<number>, to: ArrayLike<number>): RigidTransform {
     return rigidMotion(this.#core, from, to);

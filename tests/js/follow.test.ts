@@ -7,6 +7,11 @@ import { entries, errorOf, pliant } from "./support/package.js";
 import { joined, orb } from "./support/parts.js";
 import { sheet, where } from "./support/shapes.js";
 
+interface FollowState {
+  vertices: number[];
+  rotation: number[];
+  translation: number[];
+}
 type Document = Parameters<ReturnType<typeof pliant.open>["apply"]>[0];
 
 const document = (...steps: object[]) => ({ format: "pliant-edit", version: 1, steps }) as object as Document;
@@ -33,7 +38,10 @@ const along = where(plane.positions, (x, y) => Math.hypot(x - 0.75, y - 0.5) < 0
 const follow = [{ select: { vertices: ids }, along: { vertices: along } }];
 const lift = {
   method: "arap", fixed: [{ vertices: where(plane.positions, (x) => x < 0.1) }],
-  handles: [{ name: "hand", select: { vertices: where(plane.positions, (x) => x > 0.9) }, move: { translate: [-0.1, 0, 0.4], rotate: { axis: [0, 1, 0], degrees: -60 } } }],
+  handles: [{
+    name: "hand", select: { vertices: where(plane.positions, (x) => x > 0.9) },
+    move: { translate: [-0.1, 0, 0.4], rotate: { axis: [0, 1, 0], degrees: -60 } },
+  }],
   solve: { iterations: 200 },
 };
 
@@ -42,10 +50,10 @@ describe("a part that follows", () => {
   const alone = result(mesh, document(lift));
 
   it("goes where the rigid motion of what it lies on takes it, and the rest is as without it", () => {
-    const { rotate: { axis, degrees, about }, translate } = pliant.rigidMotion(gathered(mesh.positions, along), gathered(positions, along));
-    expect(degrees).toBeGreaterThan(20);
-    const move = { rotate: { axis, degrees, about }, translate };
-    const expected = result(mesh, document({ method: "place", parts: [{ select: { vertices: ids }, move }] })).positions;
+    const move = pliant.rigidMotion(gathered(mesh.positions, along), gathered(positions, along));
+    expect(move.rotate.degrees).toBeGreaterThan(20);
+    const moved = document({ method: "place", parts: [{ select: { vertices: ids }, move }] });
+    const expected = result(mesh, moved).positions;
     for (const v of ids) expect(apart(at(positions, v), at(expected, v))).toBeLessThan(1e-12);
     expect(positions.subarray(0, 3 * first)).toEqual(alone.positions.subarray(0, 3 * first));
     expect(Math.max(...ids.map((v) => apart(at(positions, v), at(alone.positions, v))))).toBeGreaterThan(0.05);
@@ -68,11 +76,12 @@ describe("a part that follows", () => {
   });
 
   it("is told by the state", () => {
-    const [{ vertices, rotation, translation }] = edit.state().follow as { vertices: number[]; rotation: number[]; translation: number[] }[];
+    const [{ vertices, rotation, translation }] = edit.state().follow as FollowState[];
     expect(vertices).toEqual(ids);
     for (const v of ids) {
       const p = at(mesh.positions, v);
-      const moved = [0, 1, 2].map((row) => translation[row] + p.reduce((sum, x, k) => sum + rotation[3 * row + k] * x, 0));
+      const turned = [0, 1, 2].map((row) => p.reduce((sum, x, k) => sum + rotation[3 * row + k] * x, 0));
+      const moved = turned.map((x, k) => x + translation[k]);
       expect(apart(moved, at(positions, v))).toBeLessThan(1e-12);
     }
     expect(alone.edit.state()).not.toHaveProperty("follow");
@@ -83,7 +92,7 @@ describe("a part that follows", () => {
     expect(deformer.positions(new Float64Array(positions.length))).toEqual(alone.positions);
   });
 
-  it("comes and goes with the document, comes back with a moment, and is the same in pliant.edit and a worker", async () => {
+  it("comes and goes with the document, comes back with a moment, in pliant.edit and a worker too", async () => {
     const { edit } = result(mesh, document(lift), document({ ...lift, follow }));
     expect(edit.positions(new Float64Array(positions.length))).toEqual(positions);
     expect(edit.report().steps[0].factorizations).toBe(alone.edit.report().steps[0].factorizations); // it costs nothing
@@ -93,7 +102,8 @@ describe("a part that follows", () => {
     expect(edit.positions(new Float64Array(positions.length))).toEqual(alone.positions);
     edit.apply(moment);
     expect(edit.positions(new Float64Array(positions.length))).toEqual(positions);
-    expect((await pliant.edit(pliant.shape(mesh), document({ ...lift, follow }) as never)).positions).toEqual(positions);
+    const edited = await pliant.edit(pliant.shape(mesh), document({ ...lift, follow }) as never);
+    expect(edited.positions).toEqual(positions);
     const library = await entries.worker.init();
     const there = await library.open(await library.shape(mesh));
     await there.apply(document({ ...lift, follow }));
@@ -103,7 +113,9 @@ describe("a part that follows", () => {
 
   it("goes its own way where the step fixes or moves a vertex of it", () => {
     const held = { name: "bead", select: { vertices: [ids[0]] }, move: { translate: [0, 0, 0.1] } };
-    for (const step of [{ ...lift, handles: [...lift.handles, held] }, { ...lift, fixed: [...lift.fixed, { vertices: [ids[3]] }] }]) {
+    const moves = { ...lift, handles: [...lift.handles, held] };
+    const fixes = { ...lift, fixed: [...lift.fixed, { vertices: [ids[3]] }] };
+    for (const step of [moves, fixes]) {
       expect(result(mesh, document({ ...step, follow })).positions).toEqual(result(mesh, document(step)).positions);
     }
   });
@@ -117,7 +129,9 @@ describe("a part that follows", () => {
     const near = where(tube.positions, (x, _, z) => x > 0 && Math.abs(z - 0.9) < 0.08);
     const part = { select: { vertices: eyes }, along: { vertices: near } };
     const { positions } = result(head, document({ ...step, follow: [part] }));
-    for (const v of eyes) expect(Math.min(...near.map((w) => apart(at(positions, v), at(positions, w))))).toBeLessThan(0.1);
+    for (const v of eyes) {
+      expect(Math.min(...near.map((w) => apart(at(positions, v), at(positions, w))))).toBeLessThan(0.1);
+    }
     expect(Math.min(...eyes.map((v) => apart(at(positions, v), at(head.positions, v))))).toBeGreaterThan(0.2);
   });
 
@@ -139,7 +153,8 @@ describe("a part that follows", () => {
 
   it("is the same in all key frames", async () => {
     const keyframes = [{ time: 0, steps: [{ ...lift, follow }] }, { time: 1, steps: [lift] }];
-    const { message } = await errorOf(() => pliant.edit(pliant.shape(mesh), { format: "pliant-edit", version: 1, frames: 2, keyframes } as never));
+    const script = { format: "pliant-edit", version: 1, frames: 2, keyframes };
+    const { message } = await errorOf(() => pliant.edit(pliant.shape(mesh), script as never));
     expect(message).toContain("keyframes[1].steps[0].follow");
   });
 });

@@ -1,4 +1,4 @@
-// What a shape tells beside its report: patches, loose parts, its volume; and the rigid motion between two sets of points.
+// What a shape tells beside its report: patches, loose parts, its volume; and the rigid motion between points.
 
 import { describe, expect, it } from "vitest";
 import { entries, errorOf, pliant } from "./support/package.js";
@@ -10,7 +10,8 @@ describe("a patch", () => {
   const shape = pliant.shape(mesh);
   const middle = 40;
   const center = [...mesh.positions.subarray(3 * middle, 3 * middle + 3)];
-  const within = (radius: number, [x, y, z] = center) => where(mesh.positions, (a, b, c) => Math.hypot(a - x, b - y, c - z) <= radius);
+  const within = (radius: number, [x, y, z] = center) =>
+    where(mesh.positions, (a, b, c) => Math.hypot(a - x, b - y, c - z) <= radius);
 
   it("is what lies within its ball, and always its vertex", () => {
     expect(within(0.3).length).toBeGreaterThan(9);
@@ -27,7 +28,8 @@ describe("a patch", () => {
 
   it("keeps copies of a vertex together", () => {
     const corners = Array.from(mesh.triangles);
-    const soup = pliant.shape({ positions: corners.flatMap((v) => [...mesh.positions.subarray(3 * v, 3 * v + 3)]), triangles: corners.map((_, i) => i) });
+    const positions = corners.flatMap((v) => [...mesh.positions.subarray(3 * v, 3 * v + 3)]);
+    const soup = pliant.shape({ positions, triangles: corners.map((_, i) => i) });
     const found = soup.patch([{ vertex: corners.indexOf(middle) }], 0.3);
     expect(new Set(Array.from(found, (i) => corners[i]))).toEqual(new Set(within(0.3)));
     expect(found).toHaveLength(corners.filter((v) => within(0.3).includes(v)).length);
@@ -43,7 +45,8 @@ describe("a patch", () => {
     const points = pliant.shape({ positions: cloud(60) });
     expect(points.patch([{ vertex: 3 }], 0.4).length).toBeGreaterThan(3);
     const flat = pliant.shape({ ...picture(9), dimension: 2 });
-    const two = (vertex: number) => ({ vertex, center: [...picture(9).positions.subarray(2 * vertex, 2 * vertex + 2)] });
+    const { positions } = picture(9);
+    const two = (vertex: number) => ({ vertex, center: [...positions.subarray(2 * vertex, 2 * vertex + 2)] });
     expect(flat.patch([two(40)], 0.3)).toEqual(flat.patch([{ vertex: 40 }], 0.3));
     expect(flat.patch([two(40)], 0.3, picture(9).positions)).toEqual(flat.patch([{ vertex: 40 }], 0.3));
   });
@@ -114,8 +117,10 @@ describe("the rigid motion between points", () => {
     const motion = pliant.rigidMotion(from, to);
     expect(motion.rotate.degrees).toBeCloseTo(140, 9);
     moved(motion).forEach((x, i) => expect(x).toBeCloseTo(to[i], 12));
-    expect(pliant.rigidMotion(from, from)).toMatchObject({ rotate: { axis: [0, 0, 1], degrees: 0 }, translate: [0, 0, 0] });
-    expect(pliant.rigidMotion([1, 2, 3], [4, 4, 4])).toEqual({ rotate: { axis: [0, 0, 1], degrees: 0, about: [1, 2, 3] }, translate: [3, 2, 1] });
+    const still = { axis: [0, 0, 1], degrees: 0 };
+    expect(pliant.rigidMotion(from, from)).toMatchObject({ rotate: still, translate: [0, 0, 0] });
+    const shift = { rotate: { ...still, about: [1, 2, 3] }, translate: [3, 2, 1] };
+    expect(pliant.rigidMotion([1, 2, 3], [4, 4, 4])).toEqual(shift);
   });
 
   it.each<[ArrayLike<number>, ArrayLike<number>, string]>([

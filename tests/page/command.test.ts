@@ -30,8 +30,11 @@ function arrows(columns = 16, rows = 16): Polygons {
   for (let row = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++) {
       const at = points.length;
-      const corners = [[0, 0], [0.3, 0.45], [0, 1], [1, 1], [1, 0]]; // the second lies inside, so that a fan from the first crosses the outline
-      for (const [x, y] of corners) points.push([(column + x!) / columns, (row + y!) / rows, 0.05 * Math.sin(5 * (column + x!))]);
+      // The second lies inside, so that a fan from the first crosses the outline.
+      const corners = [[0, 0], [0.3, 0.45], [0, 1], [1, 1], [1, 0]];
+      for (const [x, y] of corners) {
+        points.push([(column + x!) / columns, (row + y!) / rows, 0.05 * Math.sin(5 * (column + x!))]);
+      }
       faces.push(corners.map((_, k) => at + k));
     }
   }
@@ -59,20 +62,30 @@ function post(around = 16, along = 24): Polygons {
   return { points, faces };
 }
 
-const obj = ({ points, faces }: Polygons) =>
-  `${[...points.map((p) => `v ${p.join(" ")}`), ...faces.map((f) => `f ${f.map((v) => v + 1).join(" ")}`)].join("\n")}\n`;
+const text = (lines: readonly string[]) => `${lines.join("\n")}\n`;
+
+const obj = ({ points, faces }: Polygons) => text([
+  ...points.map((p) => `v ${p.join(" ")}`), ...faces.map((f) => `f ${f.map((v) => v + 1).join(" ")}`),
+]);
 
 const colorOf = (v: number) => [v % 251, (3 * v) % 241, 128];
 
 function texturedObj(): string {
   const { points, faces } = arrows();
-  return `# keeps its words\n${[...points.flatMap((p) => [`v ${p.join(" ")}`, `vt ${p[0]} ${p[1]}`]), "usemtl red", ...faces.map((f) => `f ${f.map((v) => `${v + 1}/${v + 1}`).join(" ")}`)].join("\n")}\n`;
+  return text([
+    "# keeps its words", ...points.flatMap((p) => [`v ${p.join(" ")}`, `vt ${p[0]} ${p[1]}`]),
+    "usemtl red", ...faces.map((f) => `f ${f.map((v) => `${v + 1}/${v + 1}`).join(" ")}`),
+  ]);
 }
 
 function coloredPly({ points, faces }: Polygons): string {
-  const properties = ["x", "y", "z"].map((k) => `property double ${k}`).concat(["red", "green", "blue"].map((k) => `property uchar ${k}`)).join("\n");
-  const header = `ply\nformat ascii 1.0\nelement vertex ${points.length}\n${properties}\nelement face ${faces.length}\nproperty list uchar int vertex_indices\nend_header`;
-  return `${[header, ...points.map((p, v) => [...p, ...colorOf(v)].join(" ")), ...faces.map((f) => [f.length, ...f].join(" "))].join("\n")}\n`;
+  return text([
+    "ply", "format ascii 1.0", `element vertex ${points.length}`,
+    ...["x", "y", "z"].map((name) => `property double ${name}`),
+    ...["red", "green", "blue"].map((name) => `property uchar ${name}`),
+    `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header",
+    ...points.map((p, v) => [...p, ...colorOf(v)].join(" ")), ...faces.map((f) => [f.length, ...f].join(" ")),
+  ]);
 }
 
 /** A .glb of the same sheet, made by the library. */
@@ -81,7 +94,7 @@ async function glbSheet(): Promise<Uint8Array> {
   return write(await read(new TextEncoder().encode(coloredPly(arrows())), "sheet.ply"), "sheet.glb");
 }
 
-/** Exports the session and has the command make it of the file: what is on the screen, and all else in the files alike. */
+/** Exports the session and has the command make it of the file: what is on the screen, and all else alike. */
 async function sameByCommand(name: string, content: string | Uint8Array, kind: "obj" | "glb" = "obj") {
   const { diagonal } = await ask((hook) => hook.shape());
   const [positions, script, page] = [await demo.positions(), await exported("script"), await exported(kind)];
@@ -89,14 +102,17 @@ async function sameByCommand(name: string, content: string | Uint8Array, kind: "
   const path = (file: string) => join(folder, file);
   writeFileSync(path(name), content);
   writeFileSync(path("edit.json"), script.bytes);
-  execFileSync(process.execPath, [join(dist, "cli.js"), "deform", path(name), "--script", path("edit.json"), "--out", path(`out.${kind}`), "--quiet"]);
+  const out = `out.${kind}`;
+  const args = ["deform", path(name), "--script", path("edit.json"), "--out", path(out), "--quiet"];
+  execFileSync(process.execPath, [join(dist, "cli.js"), ...args]);
   const { read } = await files();
-  const [ours, theirs] = [await read(page.bytes, page.name), await read(readFileSync(path(`out.${kind}`)), `out.${kind}`)];
+  const [ours, theirs] = [await read(page.bytes, page.name), await read(readFileSync(path(out)), out)];
   for (const { positions: written } of [ours, theirs]) {
     expect(written).toHaveLength(positions.length);
     expect(farthest(written, positions)).toBeLessThan(1e-6 * diagonal);
   }
-  expect([ours.faceVertices, ours.faceOffsets, ours.texcoords, ours.colors]).toEqual([theirs.faceVertices, theirs.faceOffsets, theirs.texcoords, theirs.colors]);
+  const faces = ["faceVertices", "faceOffsets", "texcoords", "colors"] as const;
+  for (const key of faces) expect(ours[key]).toEqual(theirs[key]);
   return { script: JSON.parse(script.bytes.toString()) as { steps: { method: string; refine?: boolean }[] }, ours };
 }
 
@@ -112,14 +128,18 @@ async function pull(vertex?: number): Promise<void> {
 
 describe("what is done on the page is what the command makes of", () => {
   const kinds: Record<string, () => string | Promise<Uint8Array>> = {
-    "polygons.obj": () => obj(arrows()), "textured.obj": texturedObj, "colored.ply": () => coloredPly(arrows()), "sheet.glb": glbSheet,
+    "polygons.obj": () => obj(arrows()),
+    "textured.obj": texturedObj,
+    "colored.ply": () => coloredPly(arrows()),
+    "sheet.glb": glbSheet,
   };
   test.each(Object.keys(kinds))("%s", async (name) => {
     const content = await kinds[name]!();
     await openFile(name, content);
     await pull();
     await sameByCommand(name, content, name.endsWith("glb") ? "glb" : "obj");
-    const opened = await (await files()).read(typeof content === "string" ? new TextEncoder().encode(content) : content, name);
+    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
+    const opened = await (await files()).read(bytes, name);
     expect(await ask((hook) => hook.triangles())).toEqual(Array.from(opened.triangles));
   });
 
@@ -137,8 +157,8 @@ describe("a sketch on a post of concave polygons", () => {
   const content = coloredPly(post());
   const strokes = async (...lines: [number, number, number][][]) => {
     for (const line of lines) {
-      const [first, ...further] = await demo.page.evaluate((list) => list.map((p) => window.pliantDemo.project(p)), line);
-      await demo.drag(first!, ...further);
+      const places = await demo.page.evaluate((list) => list.map((p) => window.pliantDemo.project(p)), line);
+      await demo.drag(places[0]!, ...places.slice(1));
     }
   };
   const along: [number, number, number][] = [[0, 0.6, 0], [0, 1, 0], [0, 1.4, 0], [0, 1.7, 0]];
@@ -170,10 +190,11 @@ describe("a sketch on a post of concave polygons", () => {
     expect((await ask((hook) => hook.shape())).vertices).toBeGreaterThan(vertices);
     const { script, ours } = await sameByCommand("post.ply", content);
     expect(script.steps[0]).toMatchObject({ method: "sketch", refine: true });
-    const corners = Array.from({ length: ours.faceOffsets.length - 1 }, (_, face) => ours.faceOffsets[face + 1]! - ours.faceOffsets[face]!);
+    const [, ...ends] = ours.faceOffsets;
+    const corners = ends.map((end, face) => end - ours.faceOffsets[face]!);
     expect(corners.filter((count) => count === 5).length).toBeGreaterThan(50);
     expect(corners.length).toBeGreaterThan(post().faces.length);
-    expect(ours.colors.subarray(0, 300)).toEqual(Uint8Array.from(Array.from({ length: 100 }, (_, v) => colorOf(v)).flat()));
+    expect([...ours.colors.subarray(0, 300)]).toEqual(Array.from({ length: 100 }, (_, v) => colorOf(v)).flat());
 
     // Also once the refined limb is the rest of another step.
     await demo.page.locator("#tool-pose").click();

@@ -8,7 +8,9 @@ import { remesh } from "../../web-demo/shapes/remesh.mjs";
 // @ts-expect-error: the same
 import { ball, tube } from "../../web-demo/shapes/parts.mjs";
 import { History } from "../../web-demo/src/edit/history.ts";
-import { asTransform, atRest, motionOf, quaternionOf, rotated, rotationVector, type Vec3 } from "../../web-demo/src/edit/motion.ts";
+import {
+  asTransform, atRest, motionOf, quaternionOf, rotated, rotationVector, type Vec3,
+} from "../../web-demo/src/edit/motion.ts";
 import { shared } from "../../bindings/js/edit/same.ts";
 import { decodeMesh, type PlainMesh } from "../../web-demo/src/shapes/decode.ts";
 import { subdivide } from "../../web-demo/src/shapes/subdivide.ts";
@@ -45,8 +47,9 @@ describe("motions", () => {
   });
 
   test("the library's rigid motion of what stays is none", () => {
-    expect(motionOf({ rotate: { axis: [0, 0, 1], degrees: 0, about: [1, 2, 3] }, translate: [0, 0, 0] })).toEqual(atRest);
-    const { rotation, translate } = motionOf({ rotate: { axis: [0, 1, 0], degrees: 90, about: [0, 0, 0] }, translate: [1, 2, 3] });
+    const turn = (axis: number[], degrees: number) => ({ axis, degrees, about: [1, 2, 3] });
+    expect(motionOf({ rotate: turn([0, 0, 1], 0), translate: [0, 0, 0] })).toEqual(atRest);
+    const { rotation, translate } = motionOf({ rotate: turn([0, 1, 0], 90), translate: [1, 2, 3] });
     expect([rotation, translate]).toEqual([[0, Math.PI / 2, 0], [1, 2, 3]]);
   });
 

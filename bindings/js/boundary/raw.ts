@@ -199,7 +199,10 @@ export interface RawModule {
   Sketch: new () => RawSketch;
   /** doubles: 3 n deformed positions of the input's vertices. */
   measureQuality(shape: RawShape, scratch: RawScratch, withIntersections: boolean): RawQuality;
-  /** doubles in: 3 q points, and where they go; out, 9: the rotation vector of the rigid motion, its centre, and where that goes. */
+  /**
+   * doubles in: 3 q points, and where they go; out, 9: the rotation vector of the rigid motion, its centre, and where
+   * that goes.
+   */
   fitRigid(scratch: RawScratch): void;
 }
 

@@ -21,12 +21,15 @@ export interface LoosePart {
 
 /** See `Shape.patch`. `rest`: `dimension` numbers a vertex. */
 export function patchOf(
-  owned: Owned<RawShape>, rest: Float64Array, dimension: number, spots: readonly Spot[], radius: number, positions?: ArrayLike<number>,
+  owned: Owned<RawShape>, rest: Float64Array, dimension: number, spots: readonly Spot[], radius: number,
+  positions?: ArrayLike<number>,
 ): Uint32Array {
   const count = rest.length / dimension;
   const option = (name: string) => new Place("invalid-option", name);
   const moved = positions === undefined ? undefined : coordinates(option("positions"), positions, dimension);
-  if (moved && moved.length !== count * dimension) option("positions").fail(positions, `${count * dimension} numbers, ${dimension} a vertex of the shape`);
+  if (moved && moved.length !== rest.length) {
+    option("positions").fail(positions, `${rest.length} numbers, ${dimension} a vertex of the shape`);
+  }
   const places = Array.from(list(option("spots"), spots, "an array of spots"), (spot, i) =>
     readSpot(option("spots").item(i), spot, dimension, moved ?? rest));
   notNegative(option("radius"), radius);

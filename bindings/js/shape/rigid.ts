@@ -14,7 +14,9 @@ export interface RigidTransform extends Transform {
 export function rigidMotion(core: Core, from: ArrayLike<number>, to: ArrayLike<number>): RigidTransform {
   const before = coordinates(new Place("invalid-option", "from"), from, 3);
   const after = coordinates(new Place("invalid-option", "to"), to, 3);
-  if (after.length !== before.length) new Place("invalid-option", "to").fail(to, `${before.length} numbers, as many as from`);
+  if (after.length !== before.length) {
+    new Place("invalid-option", "to").fail(to, `${before.length} numbers, as many as from`);
+  }
   return fitted(core, before, after);
 }
 
@@ -28,8 +30,9 @@ export function fitted(core: Core, from: ArrayLike<number>, to: ArrayLike<number
   const [x, y, z, ...centers] = scratch.doubles(9);
   const angle = Math.hypot(x, y, z);
   const about = centers.slice(0, 3);
+  const axis = angle > 0 ? [x, y, z].map((component) => component / angle) : [0, 0, 1];
   return {
-    rotate: { axis: angle > 0 ? [x, y, z].map((component) => component / angle) : [0, 0, 1], degrees: (angle * 180) / Math.PI, about },
-    translate: about.map((component, axis) => centers[3 + axis] - component),
+    rotate: { axis, degrees: (angle * 180) / Math.PI, about },
+    translate: about.map((component, k) => centers[3 + k] - component),
   };
 }

@@ -78,22 +78,22 @@ export class Shape {
   }
 
   /**
-   * The vertices of a patch, ascending: what a brush touches. Of each spot its vertex, and all that can be reached from it
-   * along triangles without leaving the ball of `radius` around its center; vertices at one place go together, and of
-   * points that nothing joins all within the ball. `positions`: where the vertices are now, `dimension` numbers each; left
-   * out: at rest. Errors: invalid-option.
+   * The vertices of a patch, ascending: what a brush touches. Of each spot its vertex, and all that can be reached from
+   * it along triangles without leaving the ball of `radius` around its center; vertices at one place go together, and
+   * of points that nothing joins all within the ball. `positions`: where the vertices are now, `dimension` numbers
+   * each; left out: at rest. Errors: invalid-option.
    */
   patch(spots: readonly Spot[], radius: number, positions?: ArrayLike<number>): Uint32Array {
     const { owned, rest } = this.#inside;
     return patchOf(owned, rest, this.dimension, spots, radius, positions);
   }
 
-  /** Small parts of the surface that nothing joins to the rest, most vertices first; none where there are more than 64. */
+  /** Small parts of the surface that nothing joins to the rest, most vertices first; none where there are over 64. */
   looseParts(): LoosePart[] {
     return loosePartsOf(this.#inside.owned);
   }
 
-  /** Signed volume of what the surface bounds, positive where its triangles look outwards; null where it bounds nothing. */
+  /** Signed volume of what the surface bounds, positive where its triangles look outwards; null: it bounds nothing. */
   volume(): number | null {
     const volume = this.#inside.owned.call((shape) => shape.volume());
     return Number.isNaN(volume) ? null : volume;

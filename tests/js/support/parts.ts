@@ -9,7 +9,8 @@ export function orb(n: number, radius: number, [cx, cy, cz]: readonly number[]):
   for (let i = 0; i < n; ++i) {
     for (let j = 0; j < n; ++j) {
       const [u, v] = [(2 * Math.PI * j) / n, Math.PI * (0.02 + (0.96 * i) / (n - 1))];
-      positions.push(cx + radius * Math.sin(v) * Math.cos(u), cy + radius * Math.sin(v) * Math.sin(u), cz + radius * Math.cos(v));
+      const [ring, height] = [radius * Math.sin(v), radius * Math.cos(v)];
+      positions.push(cx + ring * Math.cos(u), cy + ring * Math.sin(u), cz + height);
       if (i + 1 === n) continue;
       const [a, b] = [n * i + j, n * i + ((j + 1) % n)];
       triangles.push(a, a + n, b + n, a, b + n, b);
@@ -25,5 +26,6 @@ export function joined(...meshes: Mesh[]): Mesh {
     first += mesh.positions.length / 3;
     return ids;
   });
-  return { positions: Float64Array.from(meshes.flatMap((mesh) => [...mesh.positions])), triangles: Uint32Array.from(triangles) };
+  const positions = meshes.flatMap((mesh) => [...mesh.positions]);
+  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
 }

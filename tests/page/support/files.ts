@@ -4,7 +4,9 @@ import { demo } from "./visit.ts";
 
 /** What the page gives to be saved. */
 export async function exported(kind: "obj" | "glb" | "script"): Promise<{ name: string; bytes: Buffer }> {
-  const [download] = await Promise.all([demo.page.waitForEvent("download"), demo.page.locator(`#export-${kind}`).click()]);
+  const [download] = await Promise.all([
+    demo.page.waitForEvent("download"), demo.page.locator(`#export-${kind}`).click(),
+  ]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
@@ -20,11 +22,13 @@ export async function drop(name: string, content: string): Promise<void> {
 }
 
 /** Waits until a file is there. */
-export const shows = (file: string) => demo.page.waitForFunction((name) => window.pliantDemo.shape().name === name, file);
+export const shows = (file: string) =>
+  demo.page.waitForFunction((name) => window.pliantDemo.shape().name === name, file);
 
 /** Opens a file by the page's button and waits for it. */
 export async function openFile(name: string, content: string | Uint8Array): Promise<void> {
-  await demo.page.locator("#file").setInputFiles({ name, mimeType: "application/octet-stream", buffer: Buffer.from(content as string) });
+  const buffer = Buffer.from(content as string);
+  await demo.page.locator("#file").setInputFiles({ name, mimeType: "application/octet-stream", buffer });
   await shows(name);
   await demo.idle();
 }

@@ -252,7 +252,9 @@ export function finishedStep(doc: Doc): DocumentStep | undefined {
 const asksForSomething = (doc: Doc) =>
   hasMoved(doc) || hasLoad(doc.method, doc.grab.options) || hasLoad(doc.method, doc.options);
 
-const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({ format: "pliant-edit", version: 1, steps, seed: 1 });
+const documentOf = (steps: readonly DocumentStep[]): EditDocument => ({
+  format: "pliant-edit", version: 1, steps, seed: 1,
+});
 const documents = new WeakMap<Doc, EditDocument>();
 
 /** What the living edit is to carry out; undefined: the shape is at rest. The same document gives the same object. */

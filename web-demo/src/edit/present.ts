@@ -90,7 +90,8 @@ export class Present {
 
   /** How some vertices have moved from rest, as a whole. */
   async motionOf(vertices: Uint32Array): Promise<Motion> {
-    const at = (positions: Float32Array) => Float32Array.from({ length: 3 * vertices.length }, (_, i) => positions[3 * vertices[Math.floor(i / 3)]! + (i % 3)]!);
+    const at = (positions: Float32Array) =>
+      Float32Array.from([...vertices].flatMap((v) => [...positions.subarray(3 * v, 3 * v + 3)]));
     return motionOf(await this.client.rigidMotion(at(this.doc.shape.positions), at(this.positions)));
   }
 

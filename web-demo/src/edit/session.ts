@@ -141,7 +141,10 @@ export class Session {
 
   // -- What changes the constraints ---------------------------------------------------------------
 
-  /** A handle on a patch of the shape where it is now; vertices of other handles are left to them. Its id; undefined: none are left. */
+  /**
+   * A handle on a patch of the shape where it is now; vertices of other handles are left to them. Its id; undefined:
+   * none are left.
+   */
   async addHandle(spot: Required<Spot>, radius: number): Promise<number | undefined> {
     let id: number | undefined;
     await this.exclusive(async () => {
@@ -162,7 +165,8 @@ export class Session {
     const handle = makeHandle(doc.shape, id, `handle-${id}`, vertices, motion);
     const mine = new Set(vertices);
     this.present.selected = id;
-    this.present.setConstraints({ fixed: doc.fixed.filter((v) => !mine.has(v)), handles: [...withoutHeld(doc.handles, mine), handle] });
+    const fixed = doc.fixed.filter((v) => !mine.has(v));
+    this.present.setConstraints({ fixed, handles: [...withoutHeld(doc.handles, mine), handle] });
     return id;
   }
 
@@ -177,7 +181,10 @@ export class Session {
     return unmovedIn(this.present.doc);
   }
 
-  /** Replaces what does not move, once it is known; vertices of handles stay with them. What has left its rest is held where it is then. */
+  /**
+   * Replaces what does not move, once it is known; vertices of handles stay with them. What has left its rest is held
+   * where it is then.
+   */
   setUnmoved(painted: Promise<Iterable<number>>): Promise<boolean> {
     return this.exclusive(async () => {
       const vertices = await painted;

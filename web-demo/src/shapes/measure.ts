@@ -22,7 +22,8 @@ export class Meter {
 
   /** `ask`: the library; `tell`: there are new figures. */
   constructor(
-    private readonly rest: ShapeData, private readonly ask: (positions: Float32Array) => Promise<Quality>, private readonly tell: () => void,
+    private readonly rest: ShapeData, private readonly ask: (positions: Float32Array) => Promise<Quality>,
+    private readonly tell: () => void,
   ) {}
 
   /** The newest figures there are; those of these positions follow. */

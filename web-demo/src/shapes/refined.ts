@@ -4,7 +4,9 @@ import type { Refinement } from "../solver/pliant.ts";
 import type { ShapeData } from "./shape.ts";
 
 /** Texture coordinates of vertices, from those of corners: a shape with a picture has one pair a vertex. */
-export function ofVertices({ positions, faceVertices, texcoords }: Pick<Mesh, "positions" | "faceVertices" | "texcoords">): Float32Array {
+export function ofVertices(
+  { positions, faceVertices, texcoords }: Pick<Mesh, "positions" | "faceVertices" | "texcoords">,
+): Float32Array {
   const uv = new Float32Array((2 * positions.length) / 3);
   for (let corner = 0; corner < faceVertices.length; corner++) {
     uv[2 * faceVertices[corner]!] = texcoords[2 * corner]!;
@@ -13,11 +15,16 @@ export function ofVertices({ positions, faceVertices, texcoords }: Pick<Mesh, "p
   return uv;
 }
 
+const ofCorners = (uv: Float32Array, triangles: Uint32Array): Float64Array =>
+  Float64Array.from({ length: 2 * triangles.length }, (_, i) => uv[2 * triangles[i >> 1]! + (i & 1)]!);
+
 /** What a file of the shape holds. */
 export function asFile({ file, exact, positions, triangles, colors, picture }: ShapeData): WritableShape {
   if (file) return file;
-  const texcoords = picture && Float64Array.from({ length: 2 * triangles.length }, (_, i) => picture.uv[2 * triangles[i >> 1]! + (i & 1)]!);
-  return { positions: exact ?? positions, triangles, ...(colors ? { colors } : {}), ...(texcoords ? { texcoords } : {}) };
+  return {
+    positions: exact ?? positions, triangles,
+    ...(colors ? { colors } : {}), ...(picture ? { texcoords: ofCorners(picture.uv, triangles) } : {}),
+  };
 }
 
 /** With its faces spelled out, and at rest where the shape is. */

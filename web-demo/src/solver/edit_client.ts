@@ -3,8 +3,8 @@
 import type { Pixel, SketchCamera } from "../edit/sketch_doc.ts";
 import type { ShapeData } from "../shapes/shape.ts";
 import {
-  connect, type EditDocument, type EditMoment, type EditRun, type Quality, type RigidTransform, type ShapeReport, type SketchView, type Spot,
-  type State, type WorkerEdit, type WorkerPliant, type WorkerShape,
+  connect, type EditDocument, type EditMoment, type EditRun, type Quality, type RigidTransform, type ShapeReport,
+  type SketchView, type Spot, type State, type WorkerEdit, type WorkerPliant, type WorkerShape,
 } from "./pliant.ts";
 
 /** What the library says of a shape. `outwards`: a closed surface whose triangles look outwards. */
@@ -78,7 +78,7 @@ export class EditClient {
     return result;
   }
 
-  /** Another shape at rest; the edit of the old one is freed once the new one stands. Its loose parts are then known. */
+  /** Another shape at rest, with its loose parts known; the edit of the old one is freed once the new one stands. */
   open(data: ShapeData): Promise<ShapeFacts> {
     this.stop();
     return this.exclusive(async () => {
@@ -94,7 +94,8 @@ export class EditClient {
     const shape = await this.made(data);
     const edit = await this.pliant.open(shape);
     const parts = data.loose || shape.report.components === 1 ? [] : await shape.looseParts();
-    data.loose ??= parts.map(({ vertices, beside }) => ({ select: { vertices: [...vertices] }, along: { vertices: [...beside] } }));
+    data.loose ??= parts.map(({ vertices, beside }) =>
+      ({ select: { vertices: [...vertices] }, along: { vertices: [...beside] } }));
     await this.edit?.dispose();
     await this.shape?.dispose();
     [this.data, this.shape, this.edit] = [data, shape, edit];
@@ -116,9 +117,11 @@ export class EditClient {
   }
 
   /** What a brush of some size touches in places on a shape whose vertices are elsewhere now. */
-  patch(data: ShapeData, spots: readonly Required<Spot>[], radius: number, positions: Float32Array): Promise<Uint32Array> {
-    const flatSpots = spots.map(({ vertex, center }) => ({ vertex, center: Array.from(center).slice(0, data.dimension) }));
-    return this.exclusive(async () => (await this.shapeOf(data)).patch(flatSpots, radius, flat(positions, data)));
+  patch(
+    data: ShapeData, spots: readonly Required<Spot>[], radius: number, positions: Float32Array,
+  ): Promise<Uint32Array> {
+    const there = spots.map(({ vertex, center }) => ({ vertex, center: Array.from(center).slice(0, data.dimension) }));
+    return this.exclusive(async () => (await this.shapeOf(data)).patch(there, radius, flat(positions, data)));
   }
 
   /** The rigid motion that takes points closest to others. */
@@ -132,7 +135,10 @@ export class EditClient {
     return this.pliant.measure(this.shape, flat(positions, data), { intersections: false });
   }
 
-  /** A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to its end. */
+  /**
+   * A document or a moment, after a first frame. `fromRest`: not from the deformation as it is; `whole`: carried out to
+   * its end.
+   */
   enter(
     target: EditDocument | EditMoment | undefined, { fromRest, whole }: { fromRest: boolean; whole: boolean },
   ): Promise<Picture> {

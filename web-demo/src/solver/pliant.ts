@@ -3,8 +3,8 @@ import { init, type WorkerPliant } from "pliant/worker";
 import { learnMethods } from "../methods.ts";
 
 export type {
-  EditDocument, EditMoment, EditRun, Quality, Refinement, RigidTransform, ScriptAnyStep as DocumentStep, ShapeReport, SketchView, Spot, State,
-  WorkerEdit, WorkerPliant, WorkerShape,
+  EditDocument, EditMoment, EditRun, Quality, Refinement, RigidTransform, ScriptAnyStep as DocumentStep, ShapeReport,
+  SketchView, Spot, State, WorkerEdit, WorkerPliant, WorkerShape,
 } from "pliant/worker";
 
 /** Every call gives the same worker. */

@@ -30,7 +30,8 @@ export interface GraphState {
 /** A state that holds a graph of nodes, whatever the method. */
 export function graphIn(state: State | undefined): GraphState | undefined {
   const graph = state as unknown as Partial<GraphState> | undefined;
-  return graph?.nodes && graph.edges && graph.rotations && graph.translations && graph.energies ? (graph as GraphState) : undefined;
+  const whole = graph?.nodes && graph.edges && graph.rotations && graph.translations && graph.energies;
+  return whole ? (graph as GraphState) : undefined;
 }
 
 export class GraphView {
