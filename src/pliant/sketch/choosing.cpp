@@ -88,46 +88,46 @@ Result<LaidStroke> from_held_end(const SeenShape& seen, LaidStroke drawn, bool h
 }
 
 /// A filtered stroke from the held end on, on a shape seen through a camera, with a region given.
-Result<Limb> limb_over(SeenShape seen, const Polyline& pixels, Region region) {
-  const Result<LaidStroke> laid = lay_stroke(seen, pixels);
+Result<Limb> limb_over(SeenShape&& seen, const Polyline& pixels, Region region) {
+  Result<LaidStroke> laid = lay_stroke(seen, pixels);
   if (!laid.ok()) return laid.status();
-  return Limb(std::move(seen), *laid, std::move(region));
+  return Limb(std::move(seen), std::move(*laid), std::move(region));
 }
 
 /// The same for a stroke as drawn.
-Result<Chosen> choose_over(SeenShape seen, const Polyline& drawn, Hold hold, Region region) {
-  const Result<LaidStroke> laid = lay_stroke(seen, drawn);
+Result<Chosen> choose_over(SeenShape&& seen, const Polyline& drawn, Hold hold, Region region) {
+  Result<LaidStroke> laid = lay_stroke(seen, drawn);
   if (!laid.ok()) return laid.status();
   const bool at_end = hold == Hold::larger ? runs_to_static(seen, laid->curve, region) : hold == Hold::end;
-  const Result<LaidStroke> held = from_held_end(seen, *laid, at_end);
+  Result<LaidStroke> held = from_held_end(seen, std::move(*laid), at_end);
   if (!held.ok()) return held.status();
-  return Chosen{Limb(std::move(seen), *held, std::move(region)), at_end};
+  return Chosen{Limb(std::move(seen), std::move(*held), std::move(region)), at_end};
 }
 
 /// The same with a region chosen. What of the stroke lies before it is dropped.
-Result<Chosen> choose_under(SeenShape seen, const Polyline& drawn, Hold hold, std::span<const Polyline> partitions) {
-  const Result<LaidStroke> laid = lay_stroke(seen, drawn);
+Result<Chosen> choose_under(SeenShape&& seen, const Polyline& drawn, Hold hold, std::span<const Polyline> partitions) {
+  Result<LaidStroke> laid = lay_stroke(seen, drawn);
   if (!laid.ok()) return laid.status();
   const std::vector<Index> component = component_under(seen, *laid);
   const bool at_end = hold == Hold::larger ? more_beyond_end(seen, *laid, component) : hold == Hold::end;
-  const Result<LaidStroke> held = from_held_end(seen, *laid, at_end);
+  Result<LaidStroke> held = from_held_end(seen, std::move(*laid), at_end);
   if (!held.ok()) return held.status();
   Result<Region> region = choose_region(seen, *held, component, partitions);
   if (!region.ok()) return region.status();
   const double start = region->start;
-  if (start == 0.0) return Chosen{Limb(std::move(seen), *held, std::move(*region)), at_end};
+  if (start == 0.0) return Chosen{Limb(std::move(seen), std::move(*held), std::move(*region)), at_end};
   Result<Limb> limb = limb_over(std::move(seen), without_start(held->pixels, start), std::move(*region));
   if (!limb.ok()) return limb.status();
   return Chosen{std::move(*limb), at_end, start};
 }
 
 /// The limb in the mirror, whose stroke is known to be `pixels` from the held end on.
-Result<Limb> mirrored_limb_under(SeenShape seen, const Polyline& pixels, std::span<const Polyline> partitions) {
-  const Result<LaidStroke> laid = lay_stroke(seen, pixels);
+Result<Limb> mirrored_limb_under(SeenShape&& seen, const Polyline& pixels, std::span<const Polyline> partitions) {
+  Result<LaidStroke> laid = lay_stroke(seen, pixels);
   if (!laid.ok()) return laid.status();
   Result<Region> region = choose_region(seen, *laid, component_under(seen, *laid), partitions);
   if (!region.ok()) return region.status();
-  return Limb(std::move(seen), *laid, std::move(*region));
+  return Limb(std::move(seen), std::move(*laid), std::move(*region));
 }
 
 Status check_apart(const Region& a, const Region& b) {

@@ -51,7 +51,7 @@ std::vector<std::array<Index, 2>> local_edges(const Triangles& triangles, const 
 
 }  // namespace
 
-Limb::Limb(SeenShape seen, LaidStroke stroke, Region region)
+Limb::Limb(SeenShape&& seen, LaidStroke&& stroke, Region&& region)
     : seen_(std::move(seen)),
       stroke_(std::move(stroke)),
       region_(std::move(region)),

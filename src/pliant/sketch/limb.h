@@ -15,8 +15,8 @@ namespace pliant {
 /// Arrays over the shape's points, and after them points added between two others (refinement).
 class Limb {
  public:
-  /// `set_smooth` is to be called before the first pose.
-  Limb(SeenShape seen, LaidStroke stroke, Region region);
+  /// Takes all three over. `set_smooth` is to be called before the first pose.
+  Limb(SeenShape&& seen, LaidStroke&& stroke, Region&& region);
 
   const PlaneCurve& reference() const { return stroke_.curve; }
   const Region& region() const { return region_; }
