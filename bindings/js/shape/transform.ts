@@ -74,7 +74,9 @@ export function packTransform({ scale, axis, degrees, about, translate }: Steps,
 }
 
 /** Where it takes points, `dimension` numbers each; `center`: theirs, in space. */
-export function applyTransform(transform: CheckedTransform, points: Float64Array, center: number[], dimension: number): Float64Array {
+export function applyTransform(
+  transform: CheckedTransform, points: Float64Array, center: number[], dimension: number,
+): Float64Array {
   if (transform.kind === "matrix") return applyMatrix(transform.matrix, points, dimension);
   const { scale, axis, degrees, about = center, translate } = transform;
   const length = Math.hypot(...axis);
