@@ -9,22 +9,20 @@
 namespace pliant::dense {
 
 typedef double Vec2 __attribute__((vector_size(16)));
+typedef float Vec4 __attribute__((vector_size(16)));
 
-inline Vec2 load2(const double* p) {
-  Vec2 v;
+template <class Vec, class T>
+Vec load(const T* p) {
+  Vec v;
   std::memcpy(&v, p, sizeof v);
   return v;
 }
+
+inline Vec2 load2(const double* p) { return load<Vec2>(p); }
 inline void store2(double* p, Vec2 v) { std::memcpy(p, &v, sizeof v); }
 inline Vec2 splat2(double x) { return Vec2{x, x}; }
 
-typedef float Vec4 __attribute__((vector_size(16)));
-
-inline Vec4 load4(const float* p) {
-  Vec4 v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
+inline Vec4 load4(const float* p) { return load<Vec4>(p); }
 inline void store4(float* p, Vec4 v) { std::memcpy(p, &v, sizeof v); }
 inline Vec4 splat4(float x) { return Vec4{x, x, x, x}; }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "pliant/core/message.h"
-#include "pliant/sketch/sketch_impl.h"
+#include "pliant/sketch/sketch_model.h"
 
 namespace pliant {
 namespace {
@@ -80,7 +80,7 @@ Result<std::vector<Index>> point_labels(const Shape& shape, const std::vector<In
 struct Chosen {
   Limb limb;
   bool held_at_end;    ///< of the stroke as drawn
-  double start = 0.0;  ///< share of the stroke, from the held end, before the region
+  double start = 0.0;  ///< fraction of the stroke, from the held end, before the region
 };
 
 Result<LaidStroke> from_held_end(const SeenShape& seen, LaidStroke drawn, bool held_at_end) {

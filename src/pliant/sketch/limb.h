@@ -35,7 +35,7 @@ class Limb {
   /// Parameters of all points in a pose, eq. 9 to a relative tolerance; twists and scales need
   /// joints.
   void set_pose(const SketchPose& pose, double tolerance);
-  /// Writes the places of all points from `first` on that a share t of the pose moves; others are
+  /// Writes the places of all points from `first` on that a part t of the pose moves; others are
   /// left alone.
   void show(double t, Points& world, Index first = 0) const;
 
@@ -43,7 +43,7 @@ class Limb {
   /// parameters are the means of their parents'.
   void add(std::span<const std::array<Index, 2>> parents);
   void drop_added();
-  /// Where a share t of the pose takes the middles between two points each, 3 x edges.
+  /// Where a part t of the pose takes the middles between two points each, 3 x edges.
   Points middles(std::span<const std::array<Index, 2>> edges, double t) const;
   /// Whether the pose can move the point.
   bool moves(Index point) const { return moved_[point]; }

@@ -120,8 +120,8 @@ void PlaneCut::find_loops() {
   for (std::size_t i = 0; i < across.size(); ++i) loops_[loop.of[i]].triangles.push_back(across[i]);
   std::vector<std::vector<Eigen::Vector3d>> crossings(loop.count);
   const auto crossing = [&](Index a, Index b) -> Eigen::Vector3d {
-    const double share = distance_[a] / (distance_[a] - distance_[b]);
-    return (1.0 - share) * points_.col(a) + share * points_.col(b);
+    const double t = distance_[a] / (distance_[a] - distance_[b]);
+    return (1.0 - t) * points_.col(a) + t * points_.col(b);
   };
   for_each_run(sides, [&](auto first, auto) {
     if (!crosses(*first)) return;

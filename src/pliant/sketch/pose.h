@@ -26,7 +26,7 @@ struct SketchPose {
   bool scales() const { return !(scale == Profile::constant(1.0)); }
 };
 
-/// The reference curve bent by a share t of a pose (0: as it is), from the same start.
+/// The reference curve bent by a part t of a pose (0: as it is), from the same start.
 PlaneCurve bent(const PlaneCurve& reference, const SketchPose& pose, double t);
 
 }  // namespace pliant

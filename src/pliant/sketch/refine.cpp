@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "pliant/core/message.h"
-#include "pliant/sketch/sketch_impl.h"
+#include "pliant/sketch/sketch_model.h"
 
 namespace pliant {
 namespace {
@@ -36,9 +36,9 @@ struct Piece {
 /// is added.
 class Refiner {
  public:
-  Refiner(SketchImpl& impl, std::span<const std::uint32_t> triangles, Index max_added)
-      : impl_(impl), max_added_(max_added), rest_(impl.shape->points()) {
-    impl.refinement.emplace();
+  Refiner(SketchModel& model, std::span<const std::uint32_t> triangles, Index max_added)
+      : model_(model), max_added_(max_added), rest_(model.shape->points()) {
+    model.refinement.emplace();
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
       const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
       const std::array<double, 3> spans{distance(rest_, a, b), distance(rest_, b, c), distance(rest_, c, a)};
@@ -63,7 +63,7 @@ class Refiner {
   using Edge = std::array<Index, 2>;
 
   bool moves(Index p) const {
-    return std::any_of(impl_.limbs.begin(), impl_.limbs.end(), [&](const Limb& limb) { return limb.moves(p); });
+    return std::any_of(model_.limbs.begin(), model_.limbs.end(), [&](const Limb& limb) { return limb.moves(p); });
   }
 
   /// The first criterion. The pose is one of a polyline: across a kink of it an edge bends however
@@ -72,20 +72,20 @@ class Refiner {
   bool is_stretched(const Edge& edge, double span) const {
     const auto [a, b] = edge;
     const double before = (rest_.col(a) - rest_.col(b)).norm();
-    const double after = (impl_.world.col(a) - impl_.world.col(b)).norm();
+    const double after = (model_.world.col(a) - model_.world.col(b)).norm();
     return after > kMaxStretch * before && std::min(before, span) > limb_of(edge).reference().step();
   }
 
   /// The second, with where the pose takes the middle of the edge.
   bool is_bent(const Edge& edge, const Eigen::Vector3d& middle) const {
-    const Eigen::Vector3d u = impl_.world.col(edge[0]) - middle, v = impl_.world.col(edge[1]) - middle;
+    const Eigen::Vector3d u = model_.world.col(edge[0]) - middle, v = model_.world.col(edge[1]) - middle;
     return std::atan2(u.cross(v).norm(), u.dot(v)) < kMaxAngle;
   }
 
-  const Limb& limb_of(const Edge& edge) const { return impl_.limb_of(moves(edge[0]) ? edge[0] : edge[1]); }
+  const Limb& limb_of(const Edge& edge) const { return model_.limb_of(moves(edge[0]) ? edge[0] : edge[1]); }
 
   Edge points_of(std::uint32_t a, std::uint32_t b) const {
-    const Index p = impl_.point_of(static_cast<Index>(a)), q = impl_.point_of(static_cast<Index>(b));
+    const Index p = model_.point_of(static_cast<Index>(a)), q = model_.point_of(static_cast<Index>(b));
     return {std::min(p, q), std::max(p, q)};
   }
 
@@ -109,8 +109,8 @@ class Refiner {
     const std::vector<Edge> edges = stretched_edges();
     point_of_edge_.clear();
     parents_.clear();
-    for (const Limb& limb : impl_.limbs) {
-      const Points middles = limb.middles(edges, impl_.morph);
+    for (const Limb& limb : model_.limbs) {
+      const Points middles = limb.middles(edges, model_.morph);
       for (std::size_t i = 0; i < edges.size(); ++i) {
         if (&limb_of(edges[i]) != &limb || !is_bent(edges[i], middles.col(static_cast<Index>(i)))) continue;
         point_of_edge_.emplace(key(edges[i][0], edges[i][1]), static_cast<Index>(rest_.cols() + parents_.size()));
@@ -124,31 +124,31 @@ class Refiner {
     const Index first = static_cast<Index>(rest_.cols());
     const Index count = static_cast<Index>(parents_.size());
     rest_.conservativeResize(3, first + count);
-    impl_.world.conservativeResize(3, first + count);
+    model_.world.conservativeResize(3, first + count);
     for (Index i = 0; i < count; ++i) {
       const auto [a, b] = parents_[i];
       rest_.col(first + i) = 0.5 * (rest_.col(a) + rest_.col(b));
-      impl_.world.col(first + i) = 0.5 * (impl_.world.col(a) + impl_.world.col(b));
+      model_.world.col(first + i) = 0.5 * (model_.world.col(a) + model_.world.col(b));
     }
-    for (Limb& limb : impl_.limbs) {
+    for (Limb& limb : model_.limbs) {
       limb.add(parents_);
-      limb.show(impl_.morph, impl_.world, first);
+      limb.show(model_.morph, model_.world, first);
     }
   }
 
   /// The vertex in the middle of an edge, or none. Copies at a seam get one each.
   std::int64_t middle_vertex(std::uint32_t a, std::uint32_t b) {
-    const Index p = impl_.point_of(static_cast<Index>(a));
-    const Index q = impl_.point_of(static_cast<Index>(b));
+    const Index p = model_.point_of(static_cast<Index>(a));
+    const Index q = model_.point_of(static_cast<Index>(b));
     const auto split = point_of_edge_.find(key(p, q));
     if (split == point_of_edge_.end()) return -1;
-    Refinement& refinement = *impl_.refinement;
-    const Index fresh = impl_.shape->input_size() + static_cast<Index>(refinement.parents.size());
+    Refinement& refinement = *model_.refinement;
+    const Index fresh = model_.shape->input_size() + static_cast<Index>(refinement.parents.size());
     const auto [found, is_new] = vertex_of_edge_.try_emplace(key(static_cast<Index>(a), static_cast<Index>(b)), fresh);
     if (is_new) {
       const Index first = static_cast<Index>(p < q ? a : b);
       refinement.parents.push_back({first, static_cast<Index>(p < q ? b : a)});
-      impl_.point_of_added.push_back(split->second);
+      model_.point_of_added.push_back(split->second);
     }
     return found->second;
   }
@@ -158,7 +158,7 @@ class Refiner {
     const std::vector<Piece> pieces = std::exchange(fresh_, {});
     for (const Piece& piece : pieces) {
       split(piece);
-      if (static_cast<Index>(impl_.refinement->parents.size()) > max_added_) return false;
+      if (static_cast<Index>(model_.refinement->parents.size()) > max_added_) return false;
     }
     return true;
   }
@@ -200,7 +200,7 @@ class Refiner {
       fresh_.push_back({{ab, bc, ca}, {half, half, half}, of});
     } else {
       fresh_.push_back({{ab, b, bc}, {s, t, half}, of});
-      if (distance(impl_.world, a, bc) <= distance(impl_.world, ab, c)) {
+      if (distance(model_.world, a, bc) <= distance(model_.world, ab, c)) {
         fresh_.push_back({{a, ab, bc}, {s, half, half}, of});
         fresh_.push_back({{a, bc, c}, {half, t, span(2)}, of});
       } else {
@@ -215,7 +215,7 @@ class Refiner {
     std::vector<std::size_t> next(inputs_ + 1, 0);
     for (const Piece& piece : done_) ++next[piece.of + 1];
     std::partial_sum(next.begin(), next.end(), next.begin());
-    Refinement& refinement = *impl_.refinement;
+    Refinement& refinement = *model_.refinement;
     refinement.triangles.resize(3 * done_.size());
     refinement.triangle_parents.resize(done_.size());
     for (const Piece& piece : done_) {
@@ -225,7 +225,7 @@ class Refiner {
     }
   }
 
-  SketchImpl& impl_;
+  SketchModel& model_;
   Index max_added_;
   Points rest_;
   std::size_t inputs_ = 0;

@@ -40,7 +40,7 @@ struct Region {
 /// Cuts across both ends of the stroke (`EndCutter`), each through the whole component that it lies
 /// on, then along the partitions. What lies beyond the start is static, what lies beyond the end rigid, all else
 /// region: also what lies between the planes on other tubes of a ring, and what lies beyond both
-/// where the planes cross. Static and rigid part are kept apart by a share of the stroke's length.
+/// where the planes cross. Static and rigid part are kept apart by a fraction of the stroke's length.
 /// An end that no plane cuts off (the stroke runs beyond the shape) leaves no static or no rigid
 /// part.
 /// Errors: invalid_option (nothing is covered, or so little that no bend would show, since the

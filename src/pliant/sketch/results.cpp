@@ -6,22 +6,22 @@
 
 #include "pliant/geometry/normals.h"
 #include "pliant/geometry/point_grid.h"
-#include "pliant/sketch/sketch_impl.h"
+#include "pliant/sketch/sketch_model.h"
 
 namespace pliant {
 
-Index SketchImpl::point_of(Index vertex) const {
+Index SketchModel::point_of(Index vertex) const {
   return vertex < shape->input_size() ? shape->point_of_vertex()[vertex] : point_of_added[vertex - shape->input_size()];
 }
 
-Points SketchImpl::of_vertices(const Points& of_points) const {
+Points SketchModel::of_vertices(const Points& of_points) const {
   const Index count = shape->input_size() + static_cast<Index>(point_of_added.size());
   Points result(3, count);
   for (Index v = 0; v < count; ++v) result.col(v) = of_points.col(point_of(v));
   return result;
 }
 
-Triangles SketchImpl::triangles() const {
+Triangles SketchModel::triangles() const {
   if (!refinement) return shape->triangles();
   Triangles result(3, static_cast<Index>(refinement->triangles.size() / 3));
   for (Index i = 0; i < result.size(); ++i) {
@@ -30,14 +30,14 @@ Triangles SketchImpl::triangles() const {
   return result;
 }
 
-const Limb& SketchImpl::limb_of(Index point) const {
+const Limb& SketchModel::limb_of(Index point) const {
   for (const Limb& limb : limbs) {
     if (limb.moves(point)) return limb;
   }
   return limbs.front();
 }
 
-Points SketchImpl::in_space(const Limb& limb, const PlaneCurve& curve) {
+Points SketchModel::in_space(const Limb& limb, const PlaneCurve& curve) {
   Points points(3, curve.size());
   for (Index i = 0; i < curve.size(); ++i) {
     const Eigen::Vector2d xy = curve.nodes().col(i);
@@ -72,10 +72,10 @@ std::vector<double> Sketch::parameters() const {
   return s;
 }
 
-Points Sketch::reference() const { return SketchImpl::in_space(impl_->limbs.front(), impl_->curve()); }
+Points Sketch::reference() const { return SketchModel::in_space(impl_->limbs.front(), impl_->curve()); }
 
 Points Sketch::target() const {
-  return SketchImpl::in_space(impl_->limbs.front(), bent(impl_->curve(), impl_->whole_pose(), impl_->morph));
+  return SketchModel::in_space(impl_->limbs.front(), bent(impl_->curve(), impl_->whole_pose(), impl_->morph));
 }
 
 Points Sketch::positions() const { return impl_->of_vertices(impl_->world); }

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "pliant/core/message.h"
-#include "pliant/sketch/sketch_impl.h"
+#include "pliant/sketch/sketch_model.h"
 
 namespace pliant {
 namespace {
@@ -42,7 +42,7 @@ Stroke continued(const Stroke& target, const Polyline& reference) {
 
 // -- What it holds.
 
-SketchPose SketchImpl::whole_pose() const {
+SketchPose SketchModel::whole_pose() const {
   SketchPose pose = base;
   if (turning == Profile::identity()) return pose;
   const double step = 1.0 / static_cast<double>(curve().size() - 1);
@@ -53,13 +53,13 @@ SketchPose SketchImpl::whole_pose() const {
   return pose;
 }
 
-void SketchImpl::pose_changed(bool preview) {
+void SketchModel::pose_changed(bool preview) {
   const SketchPose pose = whole_pose();
   for (Limb& limb : limbs) limb.set_pose(pose, preview ? 1e-4 : 1e-8);
   show();
 }
 
-void SketchImpl::show() {
+void SketchModel::show() {
   const Index points = static_cast<Index>(shape->points().cols());
   world.leftCols(points) = shape->points();
   if (refinement) {
@@ -72,7 +72,7 @@ void SketchImpl::show() {
   for (const Limb& limb : limbs) limb.show(morph, world);
 }
 
-Status SketchImpl::find_joints() {
+Status SketchModel::find_joints() {
   for (Limb& limb : limbs) {
     if (Status status = limb.find_joints(); !status.ok()) return status;
   }

@@ -128,8 +128,8 @@ class Sketch final : public Deformation {
   Status restore(const State& state) override;
 
  private:
-  friend struct SketchImpl;
-  using Impl = struct SketchImpl;
+  friend struct SketchModel;
+  using Impl = struct SketchModel;
   explicit Sketch(std::unique_ptr<Impl> impl);
 
   std::unique_ptr<Impl> impl_;

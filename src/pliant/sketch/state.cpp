@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "pliant/sketch/drawing.h"
-#include "pliant/sketch/sketch_impl.h"
+#include "pliant/sketch/sketch_model.h"
 
 namespace pliant {
 namespace {
@@ -65,8 +65,8 @@ std::vector<double> numbers_of(const std::optional<Refinement>& refinement) {
 /// side follow those of the first. With twist or scale: `joints`, `twists` (right-handed about the joints' curve) and
 /// `scales`, applied before the bend; where nothing bends `angles` are the twists.
 State Sketch::save() const {
-  const Impl& impl = *impl_;
-  const SketchPose pose = impl.whole_pose();
+  const Impl& model = *impl_;
+  const SketchPose pose = model.whole_pose();
   const bool with_joints = pose.twists() || pose.scales();
   StateTable labels{"labels", 1, true, {}}, s{"s", 1, false, {}}, angles{"angles", 1, false, {}},
       reference{"reference", 3, false, {}}, target{"target", 3, false, {}}, normals{"normals", 3, false, {}},
@@ -75,18 +75,18 @@ State Sketch::save() const {
   for (const Index label : this->labels()) labels.data.push_back(label);
   s.data = parameters();
   for (Index v = 0; v < static_cast<Index>(s.data.size()); ++v) {
-    const Index p = impl.point_of(v);
-    const Limb& limb = impl.limb_of(p);
-    const bool mirrored = &limb != &impl.limbs.front();
-    const double twist = impl.morph * limb.twist()[p] * (mirrored ? -1.0 : 1.0);
-    angles.data.push_back(pose.bends() ? impl.morph * limb.bend()[p] : twist);
+    const Index p = model.point_of(v);
+    const Limb& limb = model.limb_of(p);
+    const bool mirrored = &limb != &model.limbs.front();
+    const double twist = model.morph * limb.twist()[p] * (mirrored ? -1.0 : 1.0);
+    angles.data.push_back(pose.bends() ? model.morph * limb.bend()[p] : twist);
     twists.data.push_back(twist);
-    scales.data.push_back(1.0 + impl.morph * (limb.scale()[p] - 1.0));
+    scales.data.push_back(1.0 + model.morph * (limb.scale()[p] - 1.0));
     sides.data.push_back(mirrored);
   }
-  for (const Limb& limb : impl.limbs) {
-    append(reference, SketchImpl::in_space(limb, limb.reference()));
-    append(target, SketchImpl::in_space(limb, bent(limb.reference(), pose, impl.morph)));
+  for (const Limb& limb : model.limbs) {
+    append(reference, SketchModel::in_space(limb, limb.reference()));
+    append(target, SketchModel::in_space(limb, bent(limb.reference(), pose, model.morph)));
     const Eigen::Matrix3d& axes = limb.camera().axes();
     append(normals, axes.row(0).cross(axes.row(1)).transpose());
     Points places = limb.joints();
@@ -98,14 +98,14 @@ State Sketch::save() const {
     state.tables.push_back(std::move(*table));
   }
   add_pose(state, pose);
-  state.add("morph", 0, false).data = {impl.morph};
-  if (impl.limbs.size() > 1) state.tables.push_back(std::move(sides));
+  state.add("morph", 0, false).data = {model.morph};
+  if (model.limbs.size() > 1) state.tables.push_back(std::move(sides));
   if (with_joints) {
     for (StateTable* table : {&joints, &twists, &scales}) state.tables.push_back(std::move(*table));
   }
-  if (impl.refinement) {
-    append(state.add("rest", 3, false), rest().rightCols(impl.point_of_added.size()));
-    state.add("parents", 2, true).data = numbers_of(impl.refinement);
+  if (model.refinement) {
+    append(state.add("rest", 3, false), rest().rightCols(model.point_of_added.size()));
+    state.add("parents", 2, true).data = numbers_of(model.refinement);
   }
   return state;
 }

@@ -78,9 +78,9 @@ Stroke filtered(const Stroke& stroke, Index nodes) {
   return resampled(averaged(sampled(stroke, samples), spacing), nodes);
 }
 
-Stroke without_start(const Stroke& stroke, double share) {
-  if (share == 0.0) return stroke;
-  const double place = share * static_cast<double>(stroke.cols() - 1);
+Stroke without_start(const Stroke& stroke, double fraction) {
+  if (fraction == 0.0) return stroke;
+  const double place = fraction * static_cast<double>(stroke.cols() - 1);
   const Index first = static_cast<Index>(place);
   Stroke rest = stroke.rightCols(stroke.cols() - first);
   rest.col(0) += (place - first) * (rest.col(1) - rest.col(0));

@@ -27,8 +27,8 @@ Index nodes_for(const Stroke& stroke);
 /// it is a parabola fitted to the samples within 8 pixels.
 Stroke filtered(const Stroke& stroke, Index nodes);
 
-/// The filtered stroke without its first part, `share` in [0, 1) of its length; as many nodes.
-Stroke without_start(const Stroke& stroke, double share);
+/// The filtered stroke without its first part, `fraction` in [0, 1) of its length; as many nodes.
+Stroke without_start(const Stroke& stroke, double fraction);
 
 /// The stroke, which is held at its end or at its start, from there on.
 Stroke from_held_end(const Stroke& drawn, bool held_at_end);

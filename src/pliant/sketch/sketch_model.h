@@ -6,14 +6,14 @@
 
 namespace pliant {
 
-struct SketchImpl {
+struct SketchModel {
   std::shared_ptr<const Shape> shape;
   std::optional<Plane> mirror;
   bool smooth = true;
   Hold hold = Hold::larger;
   bool held_at_end = false;
   Polyline reference_pixels;  ///< filtered, as drawn
-  double start = 0.0;         ///< share of it, from the held end, and of targets, before the region
+  double start = 0.0;         ///< fraction of it, from the held end, and of targets, before the region
   std::vector<Limb> limbs;    ///< one, or a second one that is its reflection
 
   /// As drawn or set: without the turning control.
