@@ -140,8 +140,13 @@ void LocalGlobal::take_gradient(const Points& half_gradient, const Points& x) {
   gather(half_gradient, gradient_);
   const double rounding = kRounding * x.cwiseAbs().maxCoeff();
   std::fill(still_.begin(), still_.end(), true);
-  for (Index i = 0; i < free_count(); ++i) {
-    if (half_gradient.col(point_of_free_[i]).norm() > rounding * diagonal_[i]) still_[part_of_free_[i]] = false;
+  auto still = static_cast<Index>(still_.size());
+  for (Index i = 0; i < free_count() && still > 0; ++i) {  // one point tells that a part moves
+    if (!still_[part_of_free_[i]]) continue;
+    if (half_gradient.col(point_of_free_[i]).norm() > rounding * diagonal_[i]) {
+      still_[part_of_free_[i]] = false;
+      --still;
+    }
   }
   clear_still(gradient_);
 }
@@ -178,6 +183,14 @@ void LocalGlobal::accept(LocalModel& model, Points& x, double alpha, double ener
   previous_ = gradient_ - previous_;
   memory_.remember(step_, previous_);
   energy_ = energy;
+}
+
+double LocalGlobal::longest_move() const {
+  const Index n = free_count();
+  const double *x = step_.data(), *y = x + n, *z = y + n;
+  double longest = 0.0;
+  for (Index i = 0; i < n; ++i) longest = std::max(longest, x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+  return std::sqrt(longest);
 }
 
 LocalGlobal::Outcome LocalGlobal::step(LocalModel& model, Points& x, double tolerance, double diagonal, double noise) {

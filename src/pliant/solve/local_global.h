@@ -73,7 +73,7 @@ class LocalGlobal {
   /// Moves to `trial_`, `alpha` along the direction.
   void accept(LocalModel& model, Points& x, double alpha, double energy);
   /// The longest move of a point by the last step.
-  double longest_move() const { return step_.reshaped(free_count(), 3).rowwise().norm().maxCoeff(); }
+  double longest_move() const;
 
   std::vector<Index> free_of_point_;  ///< -1: held
   std::vector<Index> point_of_free_;
