@@ -549,7 +549,8 @@ describe("key frames", () => {
     async (method) => {
       const { at, script: animation } = frames(method);
       const result = await pliant.edit(shape, animation as never);
-      for (const [frame, z] of [[3, 0.3], [1, 0.3 / 3]]) { // rounded as between key frames, and then the same to the last bit
+      // Rounded as between key frames, and then the same to the last bit.
+      for (const [frame, z] of [[3, 0.3], [1, 0.3 / 3]]) {
         const { positions } = await pliant.edit(shape, document(at(z)) as never);
         expect(distance(result.frames![frame], positions)).toBe(0);
       }
