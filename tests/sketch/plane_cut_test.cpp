@@ -136,6 +136,24 @@ TEST_CASE("other components stay outside") {
   }
 }
 
+TEST_CASE("a part known to be one component is parted as if it had been searched") {
+  const Cut tube(test::cylinder(24, 30, 0.1), Eigen::Vector3d::UnitZ(), 0.4);
+  REQUIRE(tube.cut->loops().size() == 1);
+  const Cut ring(test::torus(48, 24), Eigen::Vector3d::UnitY(), 0.01);
+  REQUIRE(ring.cut->loops().size() == 2);
+  for (const Cut* shape : {&tube, &ring}) {
+    for (const double band : {0.0, 0.05}) {
+      const std::vector<Index> searched = shape->cut->separate(0);
+      const std::vector<CutSide> plane = shape->cut->sides_of_plane(), sides = shape->cut->sides(band);
+      CHECK(shape->cut->separate(0, true) == searched);
+      CHECK(shape->cut->sides_of_plane() == plane);
+      CHECK(shape->cut->sides(band) == sides);
+      CHECK(shape->parts(plane, CutSide::behind) == 1);
+      CHECK(shape->parts(plane, CutSide::ahead) == 1);
+    }
+  }
+}
+
 TEST_CASE("the cheapest boundary turns less than the plane's") {
   for (std::uint32_t seed = 0; seed < 4; ++seed) {
     test::Mesh mesh = test::potato(4);
