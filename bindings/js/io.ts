@@ -2,16 +2,18 @@
 
 import { fields, flag, Place } from "./boundary/check.js";
 import { fetchBinary, type InitOptions, readInitOptions } from "./boundary/wasm.js";
-import { Files, type FileSource } from "./io/files.js";
+import { Files, type FileSource, type FileStream } from "./io/files.js";
 import { IoModule } from "./io/module.js";
-import type { ReadOptions, ShapeFile, WritableShape } from "./io/shape_file.js";
+import type { ReadOptions, RewriteOptions, ShapeFile, WritableShape } from "./io/shape_file.js";
+import type { Move } from "./io/text.js";
 
 export { PliantError, type ErrorCode } from "./boundary/errors.js";
 export type { InitOptions } from "./boundary/wasm.js";
-export type { Files, FileSource } from "./io/files.js";
+export type { Files, FileSource, FileStream } from "./io/files.js";
 export { type FileFormat, formats } from "./io/format.js";
 export { refined } from "./io/refined.js";
-export type { Mesh, ReadOptions, ReadProgress, ShapeFile, WritableShape } from "./io/shape_file.js";
+export type { Mesh, ReadOptions, ReadProgress, RewriteOptions, ShapeFile, WritableShape } from "./io/shape_file.js";
+export type { Move } from "./io/text.js";
 
 export interface FilesOptions extends InitOptions {
   /**
@@ -48,4 +50,9 @@ export async function read(source: FileSource, name: string, options?: ReadOptio
 /** See {@link Files.write}. */
 export async function write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
   return init().write(shape, name);
+}
+
+/** See {@link Files.rewrite}. */
+export function rewrite(source: FileSource | FileStream, name: string, move: Move, options?: RewriteOptions): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+  return init().rewrite(source, name, move, options);
 }

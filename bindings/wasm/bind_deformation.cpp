@@ -27,10 +27,19 @@ val BoundDeformation::normals() {
 
 PointsValue BoundDeformation::transform_points(const Scratch& scratch) {
   const std::vector<double>& given = scratch.doubles();
-  Result<Points> carried =
-      deformation().transform_points(Eigen::Map<const Points>(given.data(), 3, static_cast<Index>(given.size() / 3)));
-  if (!carried.ok()) return {to_value(carried.status())};
-  doubles_ = std::move(*carried);
+  return given_out(
+      deformation().transform_points(Eigen::Map<const Points>(given.data(), 3, static_cast<Index>(given.size() / 3))));
+}
+
+PointsValue BoundDeformation::transform_normals(const Scratch& scratch) {
+  const std::vector<double>& given = scratch.doubles();
+  const Eigen::Map<const Points> both(given.data(), 3, static_cast<Index>(given.size() / 3));
+  return given_out(deformation().transform_normals(both.leftCols(both.cols() / 2), both.rightCols(both.cols() / 2)));
+}
+
+PointsValue BoundDeformation::given_out(Result<Points> points) {
+  if (!points.ok()) return {to_value(points.status())};
+  doubles_ = std::move(*points);
   return {to_value(Status()), view_of(doubles_)};
 }
 
@@ -44,6 +53,7 @@ EMSCRIPTEN_BINDINGS(pliant_deformation) {
       .function("positions64", &BoundDeformation::positions64)
       .function("normals", &BoundDeformation::normals)
       .function("transformPoints", &BoundDeformation::transform_points)
+      .function("transformNormals", &BoundDeformation::transform_normals)
       .function("reset", &BoundDeformation::reset)
       .function("save", &BoundDeformation::save)
       .function("restore", &BoundDeformation::restore);

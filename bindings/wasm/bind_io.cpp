@@ -1,4 +1,6 @@
 // pliant-io: RawDocument and RawRewriter of bindings/js/boundary/raw.ts.
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,9 +26,10 @@ struct FractionValue {
   double fraction = 0.0;
 };
 
-struct PointsValue {
+struct FoundValue {
   StatusValue status;
   val points = val::undefined();
+  val normals = val::undefined();
 };
 
 /// Keeps what a call returned a view of.
@@ -81,18 +84,20 @@ class BoundDocument {
 
 class BoundRewriter {
  public:
-  StatusValue open(const std::string& format) {
+  StatusValue open(const std::string& format, double largest, bool normals) {
     const Result<io::FileFormat> known = io::format_from_name(format);
-    if (known.ok()) rewriter_.open(*known);
+    if (known.ok()) rewriter_.open(*known, {.largest = largest, .normals = normals});
     return to_value(known.status());
   }
-  PointsValue push(const Scratch& scratch, bool last) {
+  FoundValue push(const Scratch& scratch, bool last) {
     const Status status = rewriter_.push(scratch.bytes(), last);
-    return {to_value(status), view_of(rewriter_.points())};
+    return {to_value(status), view_of(rewriter_.points()), view_of(rewriter_.normals())};
   }
   BytesValue emit(const Scratch& scratch) {
     output_.clear();
-    const Status status = rewriter_.emit(scratch.doubles(), output_);
+    const std::span<const double> numbers(scratch.doubles());
+    const std::size_t coordinates = std::min(numbers.size(), rewriter_.points().size());
+    const Status status = rewriter_.emit(numbers.first(coordinates), numbers.subspan(coordinates), output_);
     return {to_value(status), view_of(output_)};
   }
 
@@ -110,9 +115,10 @@ EMSCRIPTEN_BINDINGS(pliant_io) {
   emscripten::value_object<FractionValue>("RawFraction")
       .field("status", &FractionValue::status)
       .field("fraction", &FractionValue::fraction);
-  emscripten::value_object<PointsValue>("RawPoints")
-      .field("status", &PointsValue::status)
-      .field("points", &PointsValue::points);
+  emscripten::value_object<FoundValue>("RawFound")
+      .field("status", &FoundValue::status)
+      .field("points", &FoundValue::points)
+      .field("normals", &FoundValue::normals);
 
   emscripten::class_<BoundDocument>("Document")
       .constructor<>()

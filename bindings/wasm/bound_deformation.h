@@ -22,6 +22,8 @@ class BoundDeformation {
   emscripten::val normals();
   /// scratch.doubles: 3 q.
   PointsValue transform_points(const Scratch& scratch);
+  /// scratch.doubles: 3 q points, then their normals.
+  PointsValue transform_normals(const Scratch& scratch);
   void reset() { deformation().reset(); }
   void save(BoundState& bound) { bound.state = deformation().save(); }
   StatusValue restore(const BoundState& bound) { return to_value(deformation().restore(bound.state)); }
@@ -30,6 +32,8 @@ class BoundDeformation {
   virtual Deformation& deformation() = 0;
 
  private:
+  PointsValue given_out(Result<Points> points);
+
   Eigen::Matrix<float, 3, Eigen::Dynamic> floats_;
   Points doubles_;
 };

@@ -78,7 +78,7 @@ export function filled(place: Place, value: unknown, expected: string): List {
 }
 
 /** Beyond this squares and their sums lose all meaning; shapes have the same bound. */
-const largest = 1e30;
+export const largest = 1e30;
 
 function isFinite(value: unknown): value is number {
   return typeof value === "number" && Math.abs(value) <= largest;

@@ -100,6 +100,8 @@ export interface RawDeformation extends RawObject {
   normals(): Float32Array; // 3 a vertex
   /** doubles in: 3 q; on success `points` is a view of 3 q doubles. */
   transformPoints(scratch: RawScratch): { status: RawStatus; points: Float64Array };
+  /** doubles in: 3 q points, then their normals; on success `points` is a view of 3 q doubles, the turned normals. */
+  transformNormals(scratch: RawScratch): { status: RawStatus; points: Float64Array };
   reset(): void;
   save(state: RawState): void;
   restore(state: RawState): RawStatus;
@@ -238,12 +240,11 @@ export interface RawDocument extends RawObject {
 
 /** Streams a file through, replacing coordinates and keeping every other byte (bind_io.cpp). */
 export interface RawRewriter extends RawObject {
-  open(format: string): RawStatus;
-  /**
-   * bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found.
-   */
-  push(scratch: RawScratch, last: boolean): { status: RawStatus; points: Float64Array };
-  /** doubles: the new coordinates of the last push, as many. `bytes` is what to write. */
+  /** largest: a coordinate beyond it is an error of the file; normals: those of vertices are turned instead of left out. */
+  open(format: string, largest: number, normals: boolean): RawStatus;
+  /** bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found, and `normals` as many normals, or none. */
+  push(scratch: RawScratch, last: boolean): { status: RawStatus; points: Float64Array; normals: Float64Array };
+  /** doubles: the new coordinates of the last push, as many, then the normals. `bytes` is what to write. */
   emit(scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };
 }
 

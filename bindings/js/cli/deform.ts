@@ -1,38 +1,37 @@
 // pliant deform: an edit script over a shape, and the files that come of it.
 
-import { type FileHandle, open, readFile } from "node:fs/promises";
+import { readFile } from "node:fs/promises";
+import { resolve } from "node:path";
 import type { Core } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
-import { readMethod } from "../methods/index.js";
 import type { Pliant } from "../pliant.js";
 import type { ScriptPlan } from "../edit/plan.js";
 import { readScript } from "../edit/read.js";
 import { type FinishedEdit, reportOf, runFrames } from "../edit/frames.js";
 import type { EditProgress, EditReport } from "../edit/types.js";
 import { extentOf, type Shape } from "../shape/shape.js";
+import { carry, checkCarries, readCarry } from "./carry.js";
 import { Failure, onFile } from "./failure.js";
-import { formats, textFormats } from "../io/format.js";
+import { formats } from "../io/format.js";
 import type { ShapeFile } from "../io/shape_file.js";
-import { rewriteStream } from "../io/text.js";
 import { parseJson } from "./json.js";
 import type { Outputs } from "./outputs.js";
 import { Progress } from "./progress.js";
-import { animated, files as shapeFiles, formatOf, readShape, written } from "./shapes.js";
+import { animated, formatOf, readShape, written } from "./shapes.js";
 import type { Invocation } from "./usage.js";
-
-const pieceSize = 4 << 20;
 
 /** Writes into `outputs`, which the caller keeps or discards. */
 export async function deform(
   pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal,
 ): Promise<void> {
   const { operands: [shapePath], files, flags } = invocation;
-  checkCarry(files.carry, files["carry-out"]);
+  const big = readCarry(files);
+  checkOutputs([files.out, files.report, files.state, big?.to]);
   const format = formatOf(files.out!, formats);
   const file = await readShape(shapePath);
   const shape = await onFile(shapePath, () => pliant.shape({ positions: file.positions, triangles: file.triangles }));
   const plan = await readPlan(files.script!, shape);
-  if (files.carry) checkCarries(files.script!, plan);
+  if (big) checkCarries(files.script!, plan);
   const frames = new Frames(file, files.out!, format, plan, outputs);
   const progress = new Progress(flags.quiet === true);
   try {
@@ -43,7 +42,7 @@ export async function deform(
         await frames.add(edit);
         if (reports.length < (plan.frames ?? 1)) continue;
         if (files.state) await outputs.write(files.state, JSON.stringify(edit.state));
-        if (files.carry) await carry(edit, files.carry, files["carry-out"]!, outputs, progress, signal);
+        if (big) await carry(edit, shape.dimension, big, outputs, progress, signal);
       }
     });
     await frames.finish();
@@ -53,26 +52,11 @@ export async function deform(
   }
 }
 
-function checkCarry(from: string | undefined, to: string | undefined): void {
-  if ((from === undefined) !== (to === undefined)) {
-    throw new Failure("--carry and --carry-out go together; see pliant --help");
-  }
-  if (from === undefined || to === undefined) return;
-  const format = formatOf(from, textFormats);
-  if (formatOf(to, textFormats) !== format) {
-    throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
-  }
-}
-
-/** What moves a surface only has no other points to carry. */
-function checkCarries(path: string, { keyframes: [{ steps }] }: ScriptPlan): void {
-  for (const step of steps) {
-    const solved = step.kind === "place" ? undefined : step.kind === "sketch" ? step.finish?.options : step.options;
-    if (solved && readMethod(step.place, solved.method).carries) continue;
-    const method = solved?.method ?? step.kind;
-    const found = `${step.place.at("method").path} is "${method}", which moves the surface and not the space around it`;
-    throw new Failure(`${path}: ${found}; --carry expects a method that deforms space`);
-  }
+/** No output takes the place of another. */
+function checkOutputs(paths: (string | undefined)[]): void {
+  const named = paths.filter((path) => path !== undefined);
+  const twice = named.find((path, i) => named.slice(0, i).some((before) => resolve(before) === resolve(path)));
+  if (twice) throw new Failure(`${twice}: is named for two outputs; expected different files`);
 }
 
 async function readPlan(path: string, shape: Shape): Promise<ScriptPlan> {
@@ -148,40 +132,5 @@ class Frames {
   /** What cannot be written is a fault of the output's format. */
   #encoded(encode: () => Promise<Uint8Array>): Promise<Uint8Array> {
     return onFile(this.out, encode);
-  }
-}
-
-/** Passes a file through the finished deformation, in memory bounded by the size of a piece. */
-async function carry(
-  edit: FinishedEdit, from: string, to: string, outputs: Outputs, progress: Progress, signal: AbortSignal,
-): Promise<void> {
-  const source = await onFile(from, () => open(from));
-  try {
-    const target = await outputs.open(to);
-    try {
-      const total = (await source.stat()).size;
-      const show = (done: number) => progress.show(done, total, `carrying ${from}`);
-      const emit = (piece: Uint8Array) => onFile(to, () => target.writeFile(piece));
-      await onFile(from, () =>
-        rewriteStream(shapeFiles.io, formatOf(from, textFormats), piecesOf(source, signal, show), edit.carry, emit),
-      );
-    } finally {
-      await target.close();
-    }
-  } finally {
-    await source.close();
-  }
-}
-
-async function* piecesOf(
-  source: FileHandle, signal: AbortSignal, show: (done: number) => void,
-): AsyncGenerator<Uint8Array> {
-  const buffer = new Uint8Array(pieceSize);
-  for (let done = 0; ; show(done)) {
-    signal.throwIfAborted();
-    const { bytesRead } = await source.read(buffer);
-    if (bytesRead === 0) return;
-    done += bytesRead;
-    yield buffer.subarray(0, bytesRead);
   }
 }

@@ -1,10 +1,11 @@
 // What every result has, whether a solver found it or a stroke.
 
-import { coordinates, type FloatArray, output, Place, toSpace } from "../boundary/check.js";
+import { type FloatArray, output, Place, toSpace } from "../boundary/check.js";
 import { accept, type Core, disposeSymbol, Owned } from "../boundary/core.js";
 import type { RawDeformation, RawState } from "../boundary/raw.js";
 import { readTables, type State, type StateHatch, toState, writeTables } from "../boundary/state.js";
 import type { Shape } from "../shape/shape.js";
+import { readNormals, readPoints } from "./carried.js";
 
 const pointsPerCall = 1 << 16;
 
@@ -50,16 +51,37 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
   transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): T;
   transformPoints(points: ArrayLike<number>, out?: FloatArray): FloatArray {
     const { dimension } = this.shape;
-    const checked = coordinates(new Place("invalid-option", "points"), points, dimension);
-    const given = checked instanceof Float32Array ? checked : Float64Array.from(checked);
-    const fresh = () => new (given.constructor as Float64ArrayConstructor)(given.length);
-    const result = output(new Place("invalid-option", "out"), out, given.length, fresh);
+    const { given, result } = readPoints(points, out, dimension);
     const size = pointsPerCall * dimension;
     for (let at = 0; at < given.length; at += size) {
       this.owned.accept((raw) => {
         const carried = raw.transformPoints(this.owned.core.stage(toSpace(given.subarray(at, at + size), dimension)));
         if (carried.status.code === "ok") copyPoints(carried.points, result, at, dimension);
         return carried.status;
+      });
+    }
+    return result;
+  }
+
+  /**
+   * Normals of a surface at points in rest coordinates, three numbers a point, turned as the deformation turns the surface
+   * there (by the cofactors of its differential); each keeps its length. In space alone. `out` may be `normals`.
+   * Errors: not-solvable where the method does not deform space, and in the plane.
+   */
+  transformNormals(points: ArrayLike<number>, normals: Float32Array): Float32Array;
+  transformNormals(points: ArrayLike<number>, normals: ArrayLike<number>): Float64Array;
+  transformNormals<T extends FloatArray>(points: ArrayLike<number>, normals: ArrayLike<number>, out: T): T;
+  transformNormals(points: ArrayLike<number>, normals: ArrayLike<number>, out?: FloatArray): FloatArray {
+    const { at, given, result } = readNormals(points, normals, out, this.shape.dimension);
+    for (let begin = 0; begin < at.length; begin += 3 * pointsPerCall) {
+      const [some, theirs] = [at, given].map((values) => values.subarray(begin, begin + 3 * pointsPerCall));
+      const both = new Float64Array(2 * some.length);
+      both.set(some);
+      both.set(theirs, some.length);
+      this.owned.accept((raw) => {
+        const turned = raw.transformNormals(this.owned.core.stage(both));
+        if (turned.status.code === "ok") result.set(turned.points, begin);
+        return turned.status;
       });
     }
     return result;
@@ -125,6 +147,12 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
     const { core } = this.owned;
     return this.owned.call((raw) => core.using(() => new core.raw.State(), (state) => use(raw, state)));
   }
+}
+
+/** Carries points, and turns their normals, in place. Errors: not-solvable. */
+export function carryThrough(deformation: Deformation, points: Float64Array, normals: Float64Array | undefined): void {
+  if (normals) deformation.transformNormals(points, normals, normals);
+  deformation.transformPoints(points, points);
 }
 
 /** Copies points out of WASM memory; the plane drops z. */

@@ -19,8 +19,8 @@ export interface FinishedEdit {
   state: State;
   /** What refinement added to the shape. */
   refinement: Refinement | undefined;
-  /** Carries points, in coordinates of the shape at rest, through all steps; in place. */
-  carry(points: Float64Array): void;
+  /** Carries points, in coordinates of the shape at rest, and turns their normals through all steps; in place. */
+  carry(points: Float64Array, normals?: Float64Array): void;
 }
 
 /**
@@ -42,7 +42,7 @@ export async function* runFrames(
       const positions = edit.positions(new Float64Array(shape.dimension * edit.vertices));
       yield {
         time, positions, steps: report.steps.map((step, i) => since(before[i], step)), quality: report.quality,
-        state: edit.state(), refinement: edit.refinement(), carry: (points) => edit.carry(points),
+        state: edit.state(), refinement: edit.refinement(), carry: (points, normals) => edit.carry(points, normals),
       };
       [frame, before] = [frame + 1, report.steps];
     }

@@ -5,6 +5,7 @@ import { type Core, disposeSymbol } from "../boundary/core.js";
 import { PliantError } from "../boundary/errors.js";
 import type { HandleState, State } from "../boundary/state.js";
 import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
+import { readNormals, readPoints } from "../deform/carried.js";
 import type { Refinement } from "../deform/sketch.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { measure } from "../shape/quality.js";
@@ -221,10 +222,35 @@ export class Edit {
   }
 
   /**
-   * Points in coordinates of the shape at rest, carried through all steps, in place. Errors: not-solvable. @internal
+   * Other points, in coordinates of the shape at rest, carried through all steps that stand; single precision in, single
+   * out. `out` may be `points`. Errors: not-solvable where a step moves a surface and not the space around it.
    */
-  carry(points: Float64Array): void {
-    this.#live.carry(points);
+  transformPoints(points: Float32Array): Float32Array;
+  transformPoints(points: ArrayLike<number>): Float64Array;
+  transformPoints<T extends FloatArray>(points: ArrayLike<number>, out: T): T;
+  transformPoints(points: ArrayLike<number>, out?: FloatArray): FloatArray {
+    const { given, result } = readPoints(points, out, this.shape.dimension);
+    const carried = Float64Array.from(given);
+    this.carry(carried);
+    result.set(carried);
+    return result;
+  }
+
+  /** Normals of a surface at such points, turned through all steps that stand: see {@link Deformation.transformNormals}. */
+  transformNormals(points: ArrayLike<number>, normals: Float32Array): Float32Array;
+  transformNormals(points: ArrayLike<number>, normals: ArrayLike<number>): Float64Array;
+  transformNormals<T extends FloatArray>(points: ArrayLike<number>, normals: ArrayLike<number>, out: T): T;
+  transformNormals(points: ArrayLike<number>, normals: ArrayLike<number>, out?: FloatArray): FloatArray {
+    const { at, given, result } = readNormals(points, normals, out, this.shape.dimension);
+    const turned = Float64Array.from(given);
+    this.carry(Float64Array.from(at), turned);
+    result.set(turned);
+    return result;
+  }
+
+  /** Both at once, in place. @internal */
+  carry(points: Float64Array, normals?: Float64Array): void {
+    this.#live.carry(points, normals);
   }
 
   /** Of the last step, as in `EditResult`. */

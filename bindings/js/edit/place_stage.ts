@@ -1,12 +1,11 @@
 // A step that puts vertices somewhere and solves nothing.
 
 import { type FloatArray, toSpace } from "../boundary/check.js";
-import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import { surfaceNormals } from "../shape/normals.js";
+import { carryPlaced } from "./carry.js";
 import { gathered, rows } from "./growth.js";
 import type { PlacePlan } from "./plan.js";
-import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { checkedParts, placed, sameGoal } from "./roles.js";
 import { same } from "./same.js";
@@ -102,9 +101,8 @@ export class PlaceStage extends Stage<PlacePlan> {
     };
   }
 
-  carry(): never {
-    const what = "place moves vertices, not the space around them";
-    throw new PliantError("not-solvable", `${what}; expected ${methodsThat(({ carries }) => carries)}`);
+  carry(points: Float64Array, normals?: Float64Array): void {
+    carryPlaced(this.plan, this.rest, points, normals);
   }
 
   dispose(): void {

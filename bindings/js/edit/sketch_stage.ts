@@ -1,13 +1,13 @@
 // A sketch step: a limb, which stays as long as the same stroke chose it, its pose, and perhaps a solver that goes on.
 
-import { PliantError } from "../boundary/errors.js";
 import type { State } from "../boundary/state.js";
 import type { Step } from "../deform/deformer.js";
+import { carryThrough } from "../deform/deformation.js";
 import { type Refinement, Sketch } from "../deform/sketch.js";
+import { requireCarries } from "./carry.js";
 import { Finisher } from "./finisher.js";
 import { located } from "./located.js";
 import type { PosePlan, SketchPlan } from "./plan.js";
-import { methodsThat } from "../methods/index.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 import { copied } from "./solving.js";
@@ -176,12 +176,9 @@ export class SketchStage extends Stage<SketchPlan> {
     };
   }
 
-  carry(points: Float64Array): void {
-    if (!this.#finisher) {
-      const what = "sketch moves a surface, not the space around it";
-      throw new PliantError("not-solvable", `${what}; expected ${methodsThat(({ carries }) => carries)}`);
-    }
-    this.#finisher.deformer.transformPoints(points, points);
+  carry(points: Float64Array, normals?: Float64Array): void {
+    requireCarries(this.plan);
+    carryThrough(this.#finisher!.deformer, points, normals);
   }
 
   dispose(): void {

@@ -1,6 +1,7 @@
 // A step with a solver: a deformer over the rest shape, kept as long as the step's document allows.
 
 import type { State } from "../boundary/state.js";
+import { carryThrough } from "../deform/deformation.js";
 import { Deformer, drive } from "../deform/deformer.js";
 import type { Handle } from "../deform/handle.js";
 import type { Options } from "../methods/index.js";
@@ -221,8 +222,8 @@ export class SolverStage extends Stage<SolverPlan> {
     return this.#sound && super.isAt(plan, rest);
   }
 
-  carry(points: Float64Array): void {
-    this.#model.deformer.transformPoints(points, points);
+  carry(points: Float64Array, normals?: Float64Array): void {
+    carryThrough(this.#model.deformer, points, normals);
   }
 
   dispose(): void {

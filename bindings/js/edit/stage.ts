@@ -61,8 +61,8 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   /** Of the step alone, as `EditResult.state`. */
   abstract state(): State;
   abstract report(): StepReport;
-  /** Carries points of the rest shape's space, in place. Errors: not-solvable. */
-  abstract carry(points: Float64Array): void;
+  /** Carries points of the rest shape's space, and turns their normals, in place. Errors: not-solvable. */
+  abstract carry(points: Float64Array, normals?: Float64Array): void;
   abstract dispose(): void;
 
   /** How far it has come, and what else it takes to come back. */

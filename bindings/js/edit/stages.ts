@@ -44,9 +44,9 @@ export class Stages {
     return this.#shown.map((stage) => (stage instanceof PutAway ? stage.report : stage.report()));
   }
 
-  /** Carries points through all of them, in place. */
-  carry(points: Float64Array): void {
-    for (let at = 0; at <= this.#front; ++at) this.#open(at).carry(points);
+  /** Carries points and their normals through all of them, in place. */
+  carry(points: Float64Array, normals?: Float64Array): void {
+    for (let at = 0; at <= this.#front; ++at) this.#open(at).carry(points, normals);
   }
 
   /** The stage of a step, over the result of the one before; those after it wait. Errors: then nothing has changed. */

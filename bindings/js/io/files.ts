@@ -1,16 +1,19 @@
 // Reading and writing shape files: one meaning in pages, workers and the command.
 
-import { choice, coordinates, fields, integer, list, Place, toSpace } from "../boundary/check.js";
+import { choice, coordinates, fields, integer, largest, list, Place, toSpace } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import { readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
-import { formatOf, formats } from "./format.js";
+import { formatOf, formats, textFormats } from "./format.js";
 import type { IoModule } from "./module.js";
 import { pauses } from "./pause.js";
-import type { Mesh, ReadOptions, ShapeFile, WritableShape } from "./shape_file.js";
-import { readText, rewriteText, writeText } from "./text.js";
+import type { Mesh, ReadOptions, RewriteOptions, ShapeFile, WritableShape } from "./shape_file.js";
+import { type Move, readText, rewriteText, rewritten, writeText } from "./text.js";
 
 /** A file: its bytes, or a Blob, as a file of the visitor is one. */
 export type FileSource = Blob | ArrayBuffer | ArrayBufferView;
+
+/** A file in pieces of any size. */
+export type FileStream = ReadableStream<Uint8Array> | AsyncIterable<Uint8Array> | Iterable<Uint8Array>;
 
 /** Readers and writers over one module. */
 export class Files {
@@ -53,6 +56,28 @@ export class Files {
     if (format === "glb") return (await import("./glb.js")).writeGlb(mesh, shape.texture);
     return writeText(this.io, format, mesh);
   }
+
+  /**
+   * A file of any size with its vertices at other places, in bounded memory: the pieces of the new file, in the format
+   * of the old one. `move` changes the coordinates of a piece in place, and the normals that a PLY file has of vertices;
+   * all else stays as it is, byte for byte, but for normals that say not whose they are (OBJ, OFF), which are left out.
+   * Coordinates become double. Not for .glb. Errors: as `read`, and those of `move`.
+   */
+  async *rewrite(source: FileSource | FileStream, name: string, move: Move, options: RewriteOptions = {}): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+    const place = new Place("invalid-option", "options");
+    const signal = readSignal(place.at("signal"), fields(place, options, ["signal"]).signal);
+    if (typeof move !== "function") new Place("invalid-option", "move").fail(move, "a function");
+    const format = formatOf(new Place("invalid-option", "name"), name, textFormats);
+    throwIfAborted(signal);
+    try {
+      for await (const piece of rewritten(this.io, format, streamOf(source), move, { largest, normals: true })) {
+        throwIfAborted(signal);
+        yield piece;
+      }
+    } catch (error) {
+      throw namedError(name, error);
+    }
+  }
 }
 
 /** Errors begin with the name of the file. */
@@ -60,9 +85,36 @@ async function named<T>(name: string, work: () => Promise<T>): Promise<T> {
   try {
     return await work();
   } catch (error) {
-    if (!(error instanceof PliantError) || error.code === "aborted") throw error;
-    throw new PliantError(error.code, `${name}: ${error.message}`, { cause: error });
+    throw namedError(name, error);
   }
+}
+
+function namedError(name: string, error: unknown): unknown {
+  if (!(error instanceof PliantError) || error.code === "aborted") return error;
+  return new PliantError(error.code, `${name}: ${error.message}`, { cause: error });
+}
+
+/** Not every engine iterates streams yet. */
+async function* streamOf(source: unknown): AsyncGenerator<Uint8Array> {
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return yield bytesOf(source);
+  const stream = source instanceof Blob ? source.stream() : source;
+  if (typeof ReadableStream !== "function" || !(stream instanceof ReadableStream)) return yield* chunks(stream);
+  const reader = stream.getReader() as ReadableStreamDefaultReader<unknown>;
+  try {
+    for (let next = await reader.read(); !next.done; next = await reader.read()) yield chunk(next.value);
+  } finally {
+    await reader.cancel();
+  }
+}
+
+async function* chunks(source: unknown): AsyncGenerator<Uint8Array> {
+  const iterable = typeof source === "object" && source !== null && (Symbol.asyncIterator in source || Symbol.iterator in source);
+  if (!iterable) new Place("invalid-option", "source").fail(source, "a Blob, an ArrayBuffer, a typed array or a stream of bytes");
+  for await (const piece of source as AsyncIterable<unknown>) yield chunk(piece);
+}
+
+function chunk(piece: unknown): Uint8Array {
+  return piece instanceof Uint8Array ? piece : new Place("invalid-option", "source").reject("gives something else than bytes; expected a Uint8Array");
 }
 
 async function bytesOf(source: unknown): Promise<Uint8Array<ArrayBuffer>> {

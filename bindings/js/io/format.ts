@@ -12,9 +12,9 @@ export type TextFormat = (typeof textFormats)[number];
 export type FileFormat = (typeof formats)[number];
 
 /** The format that a name asks for. Errors: invalid-option. */
-export function formatOf(place: Place, name: unknown): FileFormat {
-  const expected = `a name that ends in ${formats.map((format) => `.${format}`).join(" ")}`;
+export function formatOf<Format extends FileFormat = FileFormat>(place: Place, name: unknown, among: readonly Format[] = formats as readonly FileFormat[] as readonly Format[]): Format {
+  const expected = `a name that ends in ${among.map((format) => `.${format}`).join(" ")}`;
   if (typeof name !== "string") return place.fail(name, expected);
   const ending = /\.([^./\\]*)$/.exec(name)?.[1].toLowerCase();
-  return formats.find((format) => format === ending) ?? place.fail(name, expected);
+  return among.find((format) => format === ending) ?? place.fail(name, expected);
 }

@@ -4,8 +4,14 @@ import { PliantError } from "../boundary/errors.js";
 import type { RawIoModule, RawObject } from "../boundary/raw.js";
 import { type Binary, compile, type InitOptions, instantiate } from "../boundary/wasm.js";
 
-/** Work on a started module. `free` names what is to be deleted when it is done. */
-type Work<T> = (module: RawIoModule, free: <R extends RawObject>(object: R) => R) => Promise<T>;
+/** Names what is to be deleted when work is done. */
+type Free = <R extends RawObject>(object: R) => R;
+
+/** Work on a started module. */
+type Work<T> = (module: RawIoModule, free: Free) => Promise<T>;
+
+/** Work whose results come one after another. */
+type Stream<T> = (module: RawIoModule, free: Free) => AsyncGenerator<T>;
 
 /** The module, and how it comes to be. After a trap, which memory running out ends in, the next call starts it anew. */
 export class IoModule {
@@ -30,23 +36,32 @@ export class IoModule {
   }
 
   async use<T>(work: Work<T>): Promise<T> {
+    const once = this.stream(async function* (module, free) {
+      yield await work(module, free);
+    });
+    const { value } = await once.next();
+    await once.next();
+    return value as T;
+  }
+
+  /** Whoever stops asking ends the work. */
+  async *stream<T>(work: Stream<T>): AsyncGenerator<T> {
     const module = await this.start();
     const objects: RawObject[] = [];
-    const free = <R extends RawObject>(object: R): R => {
+    const free: Free = (object) => {
       objects.push(object);
       return object;
     };
+    let lives = true;
     try {
-      const result = await work(module, free);
-      for (const object of objects) object.delete();
-      return result;
+      yield* work(module, free);
     } catch (error) {
-      if (error instanceof WebAssembly.RuntimeError) {
-        this.#started = undefined;
-        throw stopped(error);
-      }
-      for (const object of objects) object.delete();
-      throw error;
+      lives = !(error instanceof WebAssembly.RuntimeError);
+      if (lives) throw error;
+      this.#started = undefined;
+      throw stopped(error as Error);
+    } finally {
+      if (lives) for (const object of objects) object.delete();
     }
   }
 }

@@ -46,3 +46,8 @@ export interface ReadOptions {
   signal?: AbortSignal;
   onProgress?: (progress: ReadProgress) => void;
 }
+
+export interface RewriteOptions {
+  /** Stops the rewriting. */
+  signal?: AbortSignal;
+}

@@ -8,7 +8,7 @@ import type { IoModule } from "./module.js";
 import type { Pause } from "./pause.js";
 import type { Mesh } from "./shape_file.js";
 
-/** A file of which the next bytes pass through a rewriter at once. */
+/** Of a file so many bytes pass through a rewriter at once. */
 const pieceSize = 4 << 20;
 
 /** `pause` is told the fraction that has been read. Errors: parse-error, too-large, aborted. */
@@ -81,7 +81,8 @@ export async function rewriteText(
     if (done + points.length <= positions.length) points.set(positions.subarray(done, done + points.length));
     done += points.length;
   };
-  const pieces = await rewritten(io, format, piecesOf(file), move);
+  const pieces: Uint8Array[] = [];
+  for await (const piece of rewritten(io, format, piecesOf(file), move, { largest: Infinity, normals: false })) pieces.push(piece);
   if (done === positions.length) return joined(pieces);
   throw new PliantError(
     "invalid-shape",
@@ -91,14 +92,6 @@ export async function rewriteText(
 
 function* piecesOf(file: Uint8Array): Generator<Uint8Array> {
   for (let at = 0; at < file.length; at += pieceSize) yield file.subarray(at, at + pieceSize);
-}
-
-async function rewritten(
-  io: IoModule, format: TextFormat, file: Iterable<Uint8Array>, move: (points: Float64Array) => void,
-): Promise<Uint8Array[]> {
-  const pieces: Uint8Array[] = [];
-  await rewriteStream(io, format, file, move, (piece) => void pieces.push(piece));
-  return pieces;
 }
 
 function joined(pieces: Uint8Array[]): Uint8Array<ArrayBuffer> {
@@ -112,34 +105,45 @@ function joined(pieces: Uint8Array[]): Uint8Array<ArrayBuffer> {
 }
 
 /**
- * Passes a file through in pieces. `move` changes the coordinates of a piece, three a point, in place; `emit` gets what
- * is to be written. Memory is bounded by the size of a piece. Errors: parse-error, invalid-shape, those of its
- * arguments.
+ * Changes the coordinates of a piece of a file, three a point, in place; and the normals of its points, where the format
+ * says which point each belongs to: as many, of any length. The points of normals are those before they are changed.
  */
-export function rewriteStream(
-  io: IoModule,
-  format: TextFormat,
-  pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>,
-  move: (points: Float64Array) => void,
-  emit: (piece: Uint8Array) => void | Promise<void>,
-): Promise<void> {
-  return io.use(async ({ Rewriter, Scratch }, free) => {
+export type Move = (points: Float64Array, normals: Float64Array | undefined) => void | Promise<void>;
+
+interface Taken {
+  /** A coordinate beyond it is an error of the file. */
+  largest: number;
+  /** Whether normals are changed; else they are left out, as they belong to the old shape. */
+  normals: boolean;
+}
+
+/**
+ * A file passed through in pieces, of any size: those of the new file, in memory bounded by the size of a piece. Errors:
+ * parse-error, invalid-shape, those of its arguments.
+ */
+export function rewritten(
+  io: IoModule, format: TextFormat, pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>, move: Move, { largest, normals }: Taken,
+): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+  return io.stream(async function* ({ Rewriter, Scratch }, free) {
     const [rewriter, scratch] = [free(new Rewriter()), free(new Scratch())];
-    accept(rewriter.open(format));
-    for await (const piece of pieces) await emit(passed(rewriter, scratch, piece, false, move));
-    await emit(passed(rewriter, scratch, new Uint8Array(0), true, move));
+    accept(rewriter.open(format, largest, normals));
+    for await (const given of pieces) {
+      for (const piece of piecesOf(given)) yield await passed(rewriter, scratch, piece, false, move);
+    }
+    yield await passed(rewriter, scratch, new Uint8Array(0), true, move);
   });
 }
 
-function passed(
-  rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: (points: Float64Array) => void,
-): Uint8Array {
+async function passed(rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: Move): Promise<Uint8Array<ArrayBuffer>> {
   put(scratch.bytes(piece.length), piece);
-  const { status, points } = rewriter.push(scratch, last);
-  accept(status);
-  const moved = points.slice();
-  if (moved.length > 0) move(moved);
-  put(scratch.doubles(moved.length), moved);
+  const found = rewriter.push(scratch, last);
+  accept(found.status);
+  const both = new Float64Array(found.points.length + found.normals.length);
+  both.set(found.points);
+  both.set(found.normals, found.points.length);
+  const [points, normals] = [both.subarray(0, found.points.length), both.subarray(found.points.length)];
+  if (points.length > 0) await move(points, normals.length > 0 ? normals : undefined);
+  put(scratch.doubles(both.length), both);
   const written = rewriter.emit(scratch);
   accept(written.status);
   return written.bytes.slice();

@@ -25,7 +25,13 @@ export interface Extent {
 }
 
 /** A checked selection: 1 for each selected vertex of these rest positions. */
-export type Select = (rest: Float64Array) => Uint8Array;
+export interface Select {
+  (rest: Float64Array): Uint8Array;
+  /** It says where, and not which vertices: any points can be put to it. */
+  readonly spatial: boolean;
+}
+
+const selecting = (spatial: boolean, select: (rest: Float64Array) => Uint8Array): Select => Object.assign(select, { spatial });
 
 type Reader = (place: Place, value: unknown, extent: Extent, depth: number) => Select;
 
@@ -35,13 +41,13 @@ const readers: Record<string, Reader> = {
   vertices(place, value, { count, dimension }) {
     const ids = vertexIds(place, value, count);
     if (ids.length === 0) place.reject("is empty; expected vertex ids");
-    return (rest) => {
+    return selecting(false, (rest) => {
       const mask = new Uint8Array(rest.length / dimension);
       ids.forEach((id, i) =>
         id < mask.length ? (mask[id] = 1) : integer(place.item(i), id, 0, mask.length - 1, "a vertex id"),
       );
       return mask;
-    };
+    });
   },
   box(place, value, { dimension }) {
     const box = fields(place, value, ["min", "max"]);
@@ -66,24 +72,25 @@ const readers: Record<string, Reader> = {
   },
   all(place, value, { dimension }) {
     if (value !== true) place.fail(value, "true");
-    return (rest) => new Uint8Array(rest.length / dimension).fill(1);
+    return selecting(true, (rest) => new Uint8Array(rest.length / dimension).fill(1));
   },
   any: combined((a, b) => a | b),
   every: combined((a, b) => a & b),
   not(place, value, extent, depth) {
     const select = read(place, value, extent, depth);
-    return (rest) => select(rest).map((selected) => 1 - selected);
+    return selecting(select.spatial, (rest) => select(rest).map((selected) => 1 - selected));
   },
 };
 
 function where(dimension: number, test: (positions: Float64Array, at: number) => boolean): Select {
-  return (rest) => Uint8Array.from({ length: rest.length / dimension }, (_, i) => Number(test(rest, i * dimension)));
+  return selecting(true, (rest) => Uint8Array.from({ length: rest.length / dimension }, (_, i) => Number(test(rest, i * dimension))));
 }
 
 function combined(join: (a: number, b: number) => number): Reader {
   return (place, value, extent, depth) => {
     const parts = Array.from(filled(place, value, "selections"), (part, i) => read(place.item(i), part, extent, depth));
-    return (rest) => parts.map((select) => select(rest)).reduce((a, b) => a.map((x, i) => join(x, b[i])));
+    const spatial = parts.every((part) => part.spatial);
+    return selecting(spatial, (rest) => parts.map((select) => select(rest)).reduce((a, b) => a.map((x, i) => join(x, b[i]))));
   };
 }
 

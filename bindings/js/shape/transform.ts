@@ -77,7 +77,12 @@ export function packTransform({ scale, axis, degrees, about, translate }: Steps,
 export function applyTransform(
   transform: CheckedTransform, points: Float64Array, center: number[], dimension: number,
 ): Float64Array {
-  if (transform.kind === "matrix") return applyMatrix(transform.matrix, points, dimension);
+  return applyMatrix(matrixOf(transform, center), points, dimension);
+}
+
+/** One of points with this centre as an affine matrix, column by column. */
+export function matrixOf(transform: CheckedTransform, center: number[]): number[] {
+  if (transform.kind === "matrix") return transform.matrix;
   const { scale, axis, degrees, about = center, translate } = transform;
   const length = Math.hypot(...axis);
   const [sine, cosine] = [Math.sin((degrees * Math.PI) / 180), Math.cos((degrees * Math.PI) / 180)];
@@ -92,8 +97,14 @@ export function applyTransform(
   const offset = (r: number) =>
     about[r] + translate[r] + turn[r].reduce((sum, m, c) => sum + m * ((1 - scale) * center[c] - about[c]), 0);
   const columns = [0, 1, 2].map((c) => [0, 1, 2].map((r) => row(r)[c]));
-  const matrix = [...columns.flatMap((column) => [...column, 0]), offset(0), offset(1), offset(2), 1];
-  return applyMatrix(matrix, points, dimension);
+  return [...columns.flatMap((column) => [...column, 0]), offset(0), offset(1), offset(2), 1];
+}
+
+/** What turns normals where a matrix moves points: the cofactors of its linear part, without a translation. */
+export function cofactors(m: number[]): number[] {
+  const entry = (r: number, c: number) => m[4 * (c % 3) + (r % 3)];
+  const minor = (r: number, c: number) => entry(r + 1, c + 1) * entry(r + 2, c + 2) - entry(r + 1, c + 2) * entry(r + 2, c + 1);
+  return [0, 1, 2].flatMap((c) => [minor(0, c), minor(1, c), minor(2, c), 0]).concat(0, 0, 0, 1);
 }
 
 /** The mean of points, in space. */

@@ -44,10 +44,18 @@ interface CarriedPoints {
   <T extends FloatArray>(points: ArrayLike<number>, out: T): Promise<T>;
 }
 
+/** Normals in the precision they came in, or in the caller's array. */
+interface TurnedNormals {
+  (points: ArrayLike<number>, normals: Float32Array): Promise<Float32Array>;
+  (points: ArrayLike<number>, normals: ArrayLike<number>): Promise<Float64Array>;
+  <T extends FloatArray>(points: ArrayLike<number>, normals: ArrayLike<number>, out: T): Promise<T>;
+}
+
 /** A call of the package as a promise. */
 type Promised<Call, How> =
   How extends { into: 0 } ? Results :
   How extends { into: 1 } ? CarriedPoints :
+  How extends { into: 2 } ? TurnedNormals :
   Call extends (...args: infer Args) => infer Result
     ? (...args: { [I in keyof Args]: OnPage<Args[I]> }) => Promise<OnPage<Awaited<Result>>>
     : never;

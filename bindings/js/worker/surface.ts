@@ -62,8 +62,8 @@ const ends = { ends: true } as const;
 
 /** What deformers and sketches have in common. */
 const deformation = {
-  positions: into, normals: into, transformPoints: { into: 1 }, state: plain, restore: plain, reset: plain,
-  dispose: ends,
+  positions: into, normals: into, transformPoints: { into: 1 }, transformNormals: { into: 2 },
+  state: plain, restore: plain, reset: plain, dispose: ends,
 } as const;
 
 export const surface = {
@@ -102,7 +102,8 @@ export const surface = {
     constants: [],
     calls: {
       apply: { changes: 0 }, run: plain, settle: { options: 0 }, reset: plain, moment: plain,
-      positions: into, normals: into, state: plain, sketch: plain, refinement: plain, report: plain, dispose: ends,
+      positions: into, normals: into, transformPoints: { into: 1 }, transformNormals: { into: 2 },
+      state: plain, sketch: plain, refinement: plain, report: plain, dispose: ends,
     },
   },
   Files: {

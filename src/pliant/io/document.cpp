@@ -100,7 +100,7 @@ struct Document::Reading {
   PolygonCollector polygons;
   std::unique_ptr<Scanner> scanner;
   std::vector<double> positions;
-  Draft draft{kPieceSize};
+  Draft draft{{.soft_limit = kPieceSize}};
   std::size_t at = 0;
 
   Reading(FileFormat file_format, Bytes file)
@@ -243,7 +243,7 @@ Result<Bytes> Document::rewrite(std::span<const double> positions) const {
   Bytes out;
   const std::unique_ptr<Scanner> scanner = make_scanner(format_, nullptr);
   const std::string_view text = text_of(source_);
-  Draft draft(kPieceSize);
+  Draft draft({.soft_limit = kPieceSize});
   std::size_t done = 0;
   for (std::size_t at = 0; at < text.size();) {
     draft.clear();

@@ -35,6 +35,13 @@ std::array<double, 3> unit_normal(const double* corners) {
   return {cross[0] / length, cross[1] / length, cross[2] / length};
 }
 
+Status check_numbers(std::span<const double> numbers, std::size_t expected, const char* name) {
+  if (numbers.size() == expected) {
+    return check_finite(numbers, name);
+  }
+  return {ErrorCode::invalid_shape, message({name, " has ", numbers.size(), " numbers; expected ", expected})};
+}
+
 }  // namespace
 
 std::size_t Draft::longest_number() const {
@@ -50,25 +57,45 @@ std::size_t Draft::longest_number() const {
   return kLongestText;
 }
 
-void Draft::clear() { rewind({0, 0, 0}); }
+void Draft::clear() { rewind({0, 0, 0, 0}); }
 
 void Draft::rewind(const Mark& mark) {
   kept_.resize(mark.kept);
   places_.resize(mark.places);
   points_.resize(mark.points);
+  normals_.resize(mark.normals);
+}
+
+void Draft::add(Kind kind, std::size_t source) {
+  places_.push_back({static_cast<std::uint32_t>(kept_.size()), static_cast<std::uint32_t>(source), kind});
 }
 
 void Draft::coordinate(double value) {
-  places_.push_back({static_cast<std::uint32_t>(kept_.size()), static_cast<std::int32_t>(points_.size())});
+  add(Kind::coordinate, points_.size());
   points_.push_back(value);
 }
 
-void Draft::facet_normal(int component) {
-  const auto facet_start = static_cast<std::int32_t>(points_.size());
-  places_.push_back({static_cast<std::uint32_t>(kept_.size()), ~(facet_start + component)});
+void Draft::coordinate(std::size_t source, double value) {
+  add(Kind::coordinate, source);
+  points_.resize(source / 3 * 3 + 3);
+  points_[source] = value;
 }
 
-Status Draft::append_value(double value, Bytes& out) const {
+void Draft::facet_normal(int component) {
+  add(Kind::facet_normal, points_.size() + static_cast<std::size_t>(component));
+}
+
+void Draft::normal(std::size_t source, double value, bool single) {
+  normals_.resize(source / 3 * 3 + 3);
+  normals_[source] = std::isfinite(value) ? value : 0.0;
+  add(single && style_ != NumberStyle::text ? Kind::single_normal : Kind::normal, source);
+}
+
+Status Draft::append_value(double value, Kind kind, Bytes& out) const {
+  if (kind == Kind::single_normal) {
+    store(out, static_cast<float>(value), style_ == NumberStyle::double_big);
+    return {};
+  }
   switch (style_) {
     case NumberStyle::text:
       append_number(out, value);
@@ -92,33 +119,28 @@ Status Draft::append_value(double value, Bytes& out) const {
   return {};
 }
 
-Status Draft::emit(std::span<const double> coordinates, Bytes& out) const {
-  if (coordinates.size() != points_.size()) {
-    return {ErrorCode::invalid_shape,
-            message({"positions has ", coordinates.size(), " numbers; expected ", points_.size()})};
+Status Draft::emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) const {
+  Status checked = check_numbers(coordinates, points_.size(), "positions");
+  if (!checked.ok()) {
+    return checked;
   }
-  Status finite = check_finite(coordinates, "positions");
-  if (!finite.ok()) {
-    return finite;
+  checked = check_numbers(normals, normals_.size(), "normals");
+  if (!checked.ok()) {
+    return checked;
   }
   std::size_t done = 0;
   std::array<double, 3> normal{};
   for (const Place& place : places_) {
     out.insert(out.end(), kept_.begin() + std::ptrdiff_t(done), kept_.begin() + place.after);
     done = place.after;
-    double value = 0.0;
-    if (place.source >= 0) {
-      value = coordinates[std::size_t(place.source)];
-    } else {
-      // Facets start at multiples of 9 coordinates, so the component is what remains.
-      const std::int32_t source = ~place.source;
-      const auto component = static_cast<std::size_t>(source % 3);
-      if (component == 0) {
-        normal = unit_normal(&coordinates[static_cast<std::size_t>(source)]);
-      }
-      value = normal[component];
+    const auto component = place.source % 3;
+    if (place.kind == Kind::facet_normal && component == 0) {
+      normal = unit_normal(&coordinates[place.source]);
     }
-    Status status = append_value(value, out);
+    const double value = place.kind == Kind::coordinate     ? coordinates[place.source]
+                         : place.kind == Kind::facet_normal ? normal[component]
+                                                            : normals[place.source];
+    Status status = append_value(value, place.kind, out);
     if (!status.ok()) {
       return status;
     }

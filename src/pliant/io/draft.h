@@ -1,6 +1,7 @@
 // A piece of a file with its coordinates taken out: what to keep, and the places to fill.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,11 +17,21 @@ namespace pliant::io {
 /// How a file writes its coordinates.
 enum class NumberStyle { text, double_little, double_big, float_little };
 
+/// What a draft takes of a file.
+struct DraftOptions {
+  /// The bytes after which the draft calls itself full.
+  std::size_t soft_limit = std::numeric_limits<std::size_t>::max();
+  /// A coordinate of a larger magnitude is an error of the file.
+  double largest = std::numeric_limits<double>::max();
+  /// Vertices' normals are places to fill, where the format says which vertex each belongs to (PLY); else they are left
+  /// out of the new file.
+  bool normals = false;
+};
+
 /// Filled by a scanner in the order of the file, then written out once with other coordinates.
 class Draft {
  public:
-  /// `soft_limit`: the bytes after which the draft calls itself full.
-  explicit Draft(std::size_t soft_limit = std::numeric_limits<std::size_t>::max()) : soft_limit_(soft_limit) {}
+  explicit Draft(const DraftOptions& options = {}) : options_(options) {}
 
   static constexpr std::size_t kLongestText = 24;  ///< -1.2345678901234567e-308
 
@@ -33,40 +44,56 @@ class Draft {
   void keep(std::string_view bytes) { append(kept_, bytes); }
   /// The place of the next coordinate, and its value in the file. Three make a point.
   void coordinate(double value);
+  /// The same where those of a point stand in any order: the place of number `source` of all coordinates, one of the
+  /// last point's.
+  void coordinate(std::size_t source, double value);
   /// The place of one component (0 to 2) of the unit normal of the facet whose corners are the next
   /// three points.
   void facet_normal(int component);
+  /// The place of number `source` of the normals, one of those of the last point, and its value, or zero where that is
+  /// not finite. `single`: a binary file has it in 32 bits.
+  void normal(std::size_t source, double value, bool single);
 
-  bool full() const { return kept_.size() + 16 * points_.size() > soft_limit_; }
+  const DraftOptions& options() const { return options_; }
+  bool admits(double coordinate) const { return std::abs(coordinate) <= options_.largest; }
+
+  bool full() const { return kept_.size() + 16 * (points_.size() + normals_.size()) > options_.soft_limit; }
   /// The coordinates found, 3 a point.
   const std::vector<double>& points() const { return points_; }
+  /// The normals found, one a point; none where they are no places to fill.
+  const std::vector<double>& normals() const { return normals_; }
 
   /// A state to return to when a record turns out to be incomplete.
   struct Mark {
-    std::size_t kept, places, points;
+    std::size_t kept, places, points, normals;
   };
-  Mark mark() const { return {kept_.size(), places_.size(), points_.size()}; }
+  Mark mark() const { return {kept_.size(), places_.size(), points_.size(), normals_.size()}; }
   void rewind(const Mark& mark);
 
-  /// Appends the piece to `out` with these coordinates, as many as points().
+  /// Appends the piece to `out` with these coordinates, as many as points(), and these normals, as many as normals().
   /// Errors: invalid_shape (another number of them, one not finite or too large for the style).
-  Status emit(std::span<const double> coordinates, Bytes& out) const;
+  Status emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) const;
+  Status emit(std::span<const double> coordinates, Bytes& out) const { return emit(coordinates, {}, out); }
 
  private:
-  /// A number that stands after the first `after` kept bytes: coordinate `source`, or, below zero,
-  /// component ~source % 3 of the normal of the facet at point ~source / 3 * 3.
+  /// What stands at a place: number `source` of the coordinates or of the normals, or of the unit normals of facets,
+  /// which have three points each.
+  enum class Kind : std::uint8_t { coordinate, facet_normal, normal, single_normal };
   struct Place {
-    std::uint32_t after;
-    std::int32_t source;
+    std::uint32_t after;  ///< kept bytes before it
+    std::uint32_t source;
+    Kind kind;
   };
 
-  Status append_value(double value, Bytes& out) const;
+  void add(Kind kind, std::size_t source);
+  Status append_value(double value, Kind kind, Bytes& out) const;
 
-  std::size_t soft_limit_;
+  DraftOptions options_;
   NumberStyle style_ = NumberStyle::text;
   Bytes kept_;
   std::vector<Place> places_;
   std::vector<double> points_;
+  std::vector<double> normals_;
 };
 
 }  // namespace pliant::io

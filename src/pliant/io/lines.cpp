@@ -116,6 +116,9 @@ Status TextScanner::take_point(std::string_view line, std::size_t& kept, std::si
     if (!value) {
       return failure({axes[axis], " is ", quoted(word), "; expected a finite decimal number"});
     }
+    if (!draft.admits(*value)) {
+      return too_far(*value, draft);
+    }
     draft.keep(line.substr(kept, at - word.size() - kept));
     draft.coordinate(*value);
     kept = at;

@@ -94,7 +94,7 @@ Result<std::size_t> PlyScanner::scan_header(std::string_view input, bool last, D
     }
     return failure({"the header has no end_header line"});
   }
-  Result<PlyHeader> header = parse_ply_header(input.substr(0, size));
+  Result<PlyHeader> header = parse_ply_header(input.substr(0, size), draft.options().normals);
   if (!header.ok()) {
     return header.status();
   }
@@ -111,7 +111,7 @@ void PlyScanner::set_up(Draft& draft) {
   for (PlyElement& element : header_->elements) {
     for (PlyProperty& property : element.properties) {
       // Without a collector nobody asks for what is not a coordinate.
-      if (!polygons_ && property.role > PlyRole::z) {
+      if (!polygons_ && property.role > PlyRole::nz) {
         property.role = PlyRole::keep;
       }
       roles |= 1U << static_cast<int>(property.role);
@@ -188,11 +188,16 @@ double color_unit(PlyType type) {
   return units[static_cast<int>(type)];
 }
 
+std::size_t component(PlyRole role, PlyRole first) {
+  return static_cast<std::size_t>(role) - static_cast<std::size_t>(first);
+}
+
 /// Works on lines and on binary records: between the fields of a line stand blanks, between those
 /// of a binary record nothing. A dropped field takes the blanks before it along.
 Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes, Draft& draft) {
   double texcoord[2] = {0.0, 0.0};
   double rgb[3] = {0.0, 0.0, 0.0};
+  const std::size_t first = draft.points().size();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     const PlyRecord::Field& field = record_.fields[i];
@@ -210,19 +215,26 @@ Status PlyScanner::take_vertex(const PlyElement& element, std::string_view bytes
     }
     const double value = record_.values[field.first];
     if (role >= PlyRole::red) {
-      rgb[static_cast<int>(role) - static_cast<int>(PlyRole::red)] = value / color_unit(element.properties[i].type);
+      rgb[component(role, PlyRole::red)] = value / color_unit(element.properties[i].type);
       continue;
     }
-    if (!std::isfinite(value)) {
+    const bool is_normal = role >= PlyRole::nx && role <= PlyRole::nz;
+    if (!is_normal && !std::isfinite(value)) {
       return failure({element.properties[i].name, " of vertex ", index_, " is not finite"});
     }
-    if (role > PlyRole::z) {
+    if (role > PlyRole::nz) {
       texcoord[role == PlyRole::u ? 0 : 1] = value;
       continue;
     }
     draft.keep(bytes.substr(kept, field.begin - kept));
-    draft.coordinate(value);
     kept = field.end;
+    if (is_normal) {
+      draft.normal(first + component(role, PlyRole::nx), value, element.properties[i].type == PlyType::float32);
+    } else if (draft.admits(value)) {
+      draft.coordinate(first + component(role, PlyRole::x), value);
+    } else {
+      return too_far(value, draft);
+    }
   }
   draft.keep(bytes.substr(kept));
   if (vertex_colors_) {

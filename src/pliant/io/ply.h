@@ -6,7 +6,8 @@
 //  - the vertices' x, y and z, whose type becomes double in the header and the body,
 //  - the vertices' nx, ny and nz, which are left out: they belong to the old shape, and a file
 //    without them is read with fresh normals, while one with stale normals is shown with wrong
-//    light.
+//    light. Where the draft asks for them they stay, with new numbers of the same type; one that
+//    is no finite number becomes zero.
 #pragma once
 
 #include <span>

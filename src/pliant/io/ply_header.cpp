@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "pliant/core/message.h"
 #include "pliant/io/lines.h"
@@ -47,7 +48,7 @@ PlyRole vertex_role(const PlyProperty& property) {
     PlyRole role;
   };
   constexpr Named names[] = {{"x", PlyRole::x},         {"y", PlyRole::y},         {"z", PlyRole::z},
-                             {"nx", PlyRole::drop},     {"ny", PlyRole::drop},     {"nz", PlyRole::drop},
+                             {"nx", PlyRole::nx},       {"ny", PlyRole::ny},       {"nz", PlyRole::nz},
                              {"u", PlyRole::u},         {"v", PlyRole::v},         {"s", PlyRole::u},
                              {"t", PlyRole::v},         {"texture_u", PlyRole::u}, {"texture_v", PlyRole::v},
                              {"texture_s", PlyRole::u}, {"texture_t", PlyRole::v}, {"red", PlyRole::red},
@@ -80,9 +81,19 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   return PlyRole::keep;
 }
 
+bool is_normal(const PlyProperty& property) { return property.role >= PlyRole::nx && property.role <= PlyRole::nz; }
+
+/// Whether there are normals, and numbers that a turned one fits.
+bool has_normals(const PlyElement& element) {
+  const auto& properties = element.properties;
+  return std::count_if(properties.begin(), properties.end(), is_normal) == 3 &&
+         std::all_of(properties.begin(), properties.end(),
+                     [](const PlyProperty& p) { return !is_normal(p) || p.type >= PlyType::float32; });
+}
+
 class HeaderParser {
  public:
-  Result<PlyHeader> parse(std::string_view text);
+  Result<PlyHeader> parse(std::string_view text, bool normals);
 
  private:
   Status failure(Words reason) const {
@@ -93,12 +104,15 @@ class HeaderParser {
   Status parse_element(std::string_view line, std::size_t at);
   Status parse_property(std::string_view line, std::size_t at);
   Status check() const;
+  void drop_normals();
 
   PlyHeader header_;
   bool has_format_ = false;
+  /// Where lines of normals stand in the rewritten header.
+  std::vector<std::pair<std::size_t, std::size_t>> normal_lines_;
 };
 
-Result<PlyHeader> HeaderParser::parse(std::string_view text) {
+Result<PlyHeader> HeaderParser::parse(std::string_view text, bool normals) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(header_line_end(text, at), text.size());
     Status status = parse_line(text.substr(at, end - at));
@@ -108,7 +122,22 @@ Result<PlyHeader> HeaderParser::parse(std::string_view text) {
     ++header_.lines;
     at = end;
   }
+  const auto turned = [](const PlyElement& element) { return has_normals(element); };
+  if (!normals || std::none_of(header_.elements.begin(), header_.elements.end(), turned)) {
+    drop_normals();
+  }
   return std::move(header_);
+}
+
+void HeaderParser::drop_normals() {
+  for (auto line = normal_lines_.rbegin(); line != normal_lines_.rend(); ++line) {
+    header_.rewritten.erase(line->first, line->second);
+  }
+  for (PlyElement& element : header_.elements) {
+    for (PlyProperty& property : element.properties) {
+      property.role = is_normal(property) ? PlyRole::drop : property.role;
+    }
+  }
 }
 
 Status HeaderParser::parse_line(std::string_view line) {
@@ -204,7 +233,10 @@ Status HeaderParser::parse_property(std::string_view line, std::size_t at) {
   if (coordinate && property.type != PlyType::float64) {
     header_.rewritten += line.substr(0, type_end - type_name.size());
     (header_.rewritten += "double") += line.substr(type_end);
-  } else if (property.role != PlyRole::drop) {
+  } else {
+    if (is_normal(property)) {
+      normal_lines_.emplace_back(header_.rewritten.size(), line.size());
+    }
     header_.rewritten += line;
   }
   element.properties.push_back(std::move(property));
@@ -261,6 +293,6 @@ std::size_t ply_header_size(std::string_view text) {
   }
 }
 
-Result<PlyHeader> parse_ply_header(std::string_view text) { return HeaderParser().parse(text); }
+Result<PlyHeader> parse_ply_header(std::string_view text, bool normals) { return HeaderParser().parse(text, normals); }
 
 }  // namespace pliant::io

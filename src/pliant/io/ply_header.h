@@ -21,6 +21,9 @@ enum class PlyRole {
   x,                 ///< coordinates
   y,                 ///
   z,                 ///
+  nx,                ///< normal of the vertex
+  ny,                ///
+  nz,                ///
   u,                 ///< texture coordinates of the vertex
   v,                 ///
   red,               ///< colour of the vertex: whole numbers up to the largest of their type, or fractions
@@ -48,7 +51,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
-  /// The header of the rewritten file: x, y and z are double, nx, ny and nz are gone.
+  /// The header of the rewritten file: x, y and z are double, properties to drop are gone.
   std::string rewritten;
   std::uint64_t lines = 0;
 };
@@ -59,7 +62,8 @@ std::size_t ply_size(PlyType type);
 /// of it.
 std::size_t ply_header_size(std::string_view text);
 
-/// `text`: the whole header. Errors: parse_error with the line.
-Result<PlyHeader> parse_ply_header(std::string_view text);
+/// `text`: the whole header. `normals`: those of vertices have a role, where all of nx, ny and nz are floating-point
+/// numbers; otherwise they are dropped. Errors: parse_error with the line.
+Result<PlyHeader> parse_ply_header(std::string_view text, bool normals);
 
 }  // namespace pliant::io

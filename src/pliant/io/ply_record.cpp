@@ -55,9 +55,10 @@ std::string take_words(const PlyProperty& property, std::uint64_t count, std::st
       continue;
     }
     const std::optional<double> value = read_number(word);
-    const bool is_color =
-        property.role >= PlyRole::red && property.role <= PlyRole::blue;  // no reason to refuse a file
-    if (!value && !is_color) {
+    const auto within = [role = property.role](PlyRole a, PlyRole b) { return role >= a && role <= b; };
+    // No reason to refuse a file.
+    const bool dispensable = within(PlyRole::red, PlyRole::blue) || within(PlyRole::nx, PlyRole::nz);
+    if (!value && !dispensable) {
       return wrong_number(property, word);
     }
     record.values.push_back(value.value_or(0.0));

@@ -20,10 +20,10 @@ std::unique_ptr<Scanner> make_scanner(FileFormat format, PolygonCollector* polyg
   return nullptr;
 }
 
-void Rewriter::open(FileFormat format) {
+void Rewriter::open(FileFormat format, const DraftOptions& options) {
   scanner_ = make_scanner(format, nullptr);
   pending_.clear();
-  draft_.clear();
+  draft_ = Draft({.largest = options.largest, .normals = options.normals});
   state_ = State::pushing;
 }
 
@@ -60,12 +60,12 @@ Status Rewriter::scan(bool last) {
   return {ErrorCode::parse_error, message({scanner_->place(), ": a record of more than ", kMaxRecord, " bytes"})};
 }
 
-Status Rewriter::emit(std::span<const double> coordinates, Bytes& out) {
+Status Rewriter::emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) {
   if (state_ != State::emitting && state_ != State::emitting_last) {
     return {ErrorCode::invalid_option, "emit without a push before it"};
   }
   const std::size_t size_before = out.size();
-  Status status = draft_.emit(coordinates, out);
+  Status status = draft_.emit(coordinates, normals, out);
   if (!status.ok()) {
     out.resize(size_before);
     return status;

@@ -37,6 +37,9 @@ class Scanner {
 
  protected:
   Status failure(Words reason) const { return {ErrorCode::parse_error, message({place(), ": ", message(reason)})}; }
+  Status too_far(double coordinate, const Draft& draft) const {
+    return failure({"coordinate ", coordinate, "; expected at most ", draft.options().largest, " in magnitude"});
+  }
   static Status require_vertices(std::uint64_t count) {
     if (count > 0) {
       return {};

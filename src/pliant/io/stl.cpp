@@ -209,6 +209,9 @@ Status BinaryStlScanner::scan_facet(std::string_view facet, Draft& draft) {
     if (!std::isfinite(value)) {
       return failure({"vertex ", (i - 12) / 12 + 1, " of facet ", facets_ + 1, " is not finite"});
     }
+    if (!draft.admits(static_cast<double>(value))) {
+      return too_far(static_cast<double>(value), draft);
+    }
     draft.coordinate(value);
   }
   draft.keep(facet.substr(48));
@@ -256,7 +259,7 @@ Status write_stl(std::span<const double> positions, std::span<const std::uint32_
   if (triangles.empty()) {
     return {ErrorCode::invalid_shape, "the shape has no faces; expected some, since STL holds nothing else"};
   }
-  Draft facets(1 << 20);
+  Draft facets({.soft_limit = 1 << 20});
   facets.set_style(NumberStyle::float_little);
   out.resize(out.size() + 80);
   store(out, static_cast<std::uint32_t>(triangles.size() / 3), false);

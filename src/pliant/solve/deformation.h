@@ -27,6 +27,10 @@ class Deformation {
   /// Any other points carried by the same deformation, 3 x q, in rest coordinates.
   /// Errors: not_solvable where a surface is moved and not the space around it, as here.
   virtual Result<Points> transform_points(const Points& points) const;
+  /// Normals of a surface at these points, 3 x q each, turned as the deformation turns the surface: by the cofactors of
+  /// its differential, which differences of transform_points stand for. A normal keeps its length; where the surface is
+  /// crushed, or there is no normal, it stays as it is. Errors: as transform_points.
+  Result<Points> transform_normals(const Points& points, const Points& normals) const;
 
   /// Back to rest, bit for bit; what was chosen to be held or moved stays so.
   virtual void reset() = 0;
