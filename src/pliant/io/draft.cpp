@@ -60,7 +60,7 @@ std::size_t Draft::longest_number() const {
 void Draft::clear() { rewind({0, 0, 0, 0}); }
 
 void Draft::rewind(const Mark& mark) {
-  kept_.resize(mark.kept);
+  kept_.cut(mark.kept);
   places_.resize(mark.places);
   points_.resize(mark.points);
   normals_.resize(mark.normals);
@@ -91,35 +91,25 @@ void Draft::normal(std::size_t source, double value, bool single) {
   add(single && style_ != NumberStyle::text ? Kind::single_normal : Kind::normal, source);
 }
 
-Status Draft::append_value(double value, Kind kind, Bytes& out) const {
+std::uint8_t* Draft::write(double value, Kind kind, std::uint8_t* to) const {
   if (kind == Kind::single_normal) {
-    store(out, static_cast<float>(value), style_ == NumberStyle::double_big);
-    return {};
+    return store(to, static_cast<float>(value), style_ == NumberStyle::double_big);
   }
   switch (style_) {
     case NumberStyle::text:
-      append_number(out, value);
-      break;
+      return to + print_number(value, reinterpret_cast<char*>(to));
     case NumberStyle::double_little:
-      store(out, value, false);
-      break;
+      return store(to, value, false);
     case NumberStyle::double_big:
-      store(out, value, true);
+      return store(to, value, true);
+    case NumberStyle::float_little:
       break;
-    case NumberStyle::float_little: {
-      const auto rounded = static_cast<float>(value);
-      if (!std::isfinite(rounded)) {
-        return {ErrorCode::invalid_shape,
-                message({"coordinate ", value, " does not fit the 32-bit numbers of binary STL"})};
-      }
-      store(out, rounded, false);
-      break;
-    }
   }
-  return {};
+  const auto rounded = static_cast<float>(value);
+  return std::isfinite(rounded) ? store(to, rounded, false) : nullptr;
 }
 
-Status Draft::emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) const {
+Status Draft::emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) {
   Status checked = check_numbers(coordinates, points_.size(), "positions");
   if (!checked.ok()) {
     return checked;
@@ -128,24 +118,31 @@ Status Draft::emit(std::span<const double> coordinates, std::span<const double> 
   if (!checked.ok()) {
     return checked;
   }
-  std::size_t done = 0;
   std::array<double, 3> normal{};
+  std::uint8_t* const begin = written_.room(kept_.size() + places_.size() * longest_number() + kLongestNumber);
+  std::uint8_t* to = begin;
+  std::size_t done = 0;
+  const auto keep_to = [&](std::size_t end) {
+    to = std::copy(kept_.data() + done, kept_.data() + end, to);
+    done = end;
+  };
   for (const Place& place : places_) {
-    out.insert(out.end(), kept_.begin() + std::ptrdiff_t(done), kept_.begin() + place.after);
-    done = place.after;
-    const auto component = place.source % 3;
+    keep_to(place.after);
+    const std::size_t component = place.source % 3;
     if (place.kind == Kind::facet_normal && component == 0) {
       normal = unit_normal(&coordinates[place.source]);
     }
     const double value = place.kind == Kind::coordinate     ? coordinates[place.source]
                          : place.kind == Kind::facet_normal ? normal[component]
                                                             : normals[place.source];
-    Status status = append_value(value, place.kind, out);
-    if (!status.ok()) {
-      return status;
+    to = write(value, place.kind, to);
+    if (to == nullptr) {
+      return {ErrorCode::invalid_shape,
+              message({"coordinate ", value, " does not fit the 32-bit numbers of binary STL"})};
     }
   }
-  out.insert(out.end(), kept_.begin() + std::ptrdiff_t(done), kept_.end());
+  keep_to(kept_.size());
+  out.insert(out.end(), begin, to);
   return {};
 }
 

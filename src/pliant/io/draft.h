@@ -41,7 +41,7 @@ class Draft {
   void set_style(NumberStyle style) { style_ = style; }
 
   /// Bytes that pass through.
-  void keep(std::string_view bytes) { append(kept_, bytes); }
+  void keep(std::string_view bytes) { kept_.append(bytes); }
   /// The place of the next coordinate, and its value in the file. Three make a point.
   void coordinate(double value);
   /// The same where those of a point stand in any order: the place of number `source` of all coordinates, one of the
@@ -72,8 +72,8 @@ class Draft {
 
   /// Appends the piece to `out` with these coordinates, as many as points(), and these normals, as many as normals().
   /// Errors: invalid_shape (another number of them, one not finite or too large for the style).
-  Status emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out) const;
-  Status emit(std::span<const double> coordinates, Bytes& out) const { return emit(coordinates, {}, out); }
+  Status emit(std::span<const double> coordinates, std::span<const double> normals, Bytes& out);
+  Status emit(std::span<const double> coordinates, Bytes& out) { return emit(coordinates, {}, out); }
 
  private:
   /// What stands at a place: number `source` of the coordinates or of the normals, or of the unit normals of facets,
@@ -86,11 +86,13 @@ class Draft {
   };
 
   void add(Kind kind, std::size_t source);
-  Status append_value(double value, Kind kind, Bytes& out) const;
+  /// Writes a number at `to`, which has room for the longest; returns where it ends, or null where it does not fit.
+  std::uint8_t* write(double value, Kind kind, std::uint8_t* to) const;
 
   DraftOptions options_;
   NumberStyle style_ = NumberStyle::text;
-  Bytes kept_;
+  ByteBuffer kept_;
+  ByteBuffer written_;
   std::vector<Place> places_;
   std::vector<double> points_;
   std::vector<double> normals_;

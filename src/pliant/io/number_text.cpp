@@ -176,15 +176,18 @@ std::optional<std::uint64_t> read_count(std::string_view text) {
   return value;
 }
 
-void append_number(Bytes& out, double value) {
-  char text[32];
+std::size_t print_number(double value, char* to) {
 #if defined(__cpp_lib_to_chars)
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17);
-  out.insert(out.end(), text, end);
+  const auto [end, error] = std::to_chars(to, to + kLongestNumber, value, std::chars_format::general, 17);
+  return static_cast<std::size_t>(end - to);
 #else
-  const int length = std::snprintf(text, sizeof text, "%.17g", value);
-  out.insert(out.end(), text, text + length);
+  return static_cast<std::size_t>(std::snprintf(to, kLongestNumber, "%.17g", value));
 #endif
+}
+
+void append_number(Bytes& out, double value) {
+  char text[kLongestNumber];
+  out.insert(out.end(), text, text + print_number(value, text));
 }
 
 void append_numbers(Bytes& out, const double* values, std::size_t count) {

@@ -2,6 +2,7 @@
 // read back bit for bit. Neither depends on the locale.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -18,7 +19,13 @@ std::optional<double> read_number(std::string_view text);
 /// A whole number of at most 18 decimal digits without a sign.
 std::optional<std::uint64_t> read_count(std::string_view text);
 
-/// Appends a finite number as printf's %.17g would: 17 significant digits, no trailing zeros.
+constexpr std::size_t kLongestNumber = 32;
+
+/// Writes a finite number as printf's %.17g would: 17 significant digits, no trailing zeros. `to` has room for
+/// kLongestNumber characters; returns how many there are.
+std::size_t print_number(double value, char* to);
+
+/// Appends a number so.
 void append_number(Bytes& out, double value);
 
 /// `count` numbers with a space between them.

@@ -31,6 +31,8 @@ class PlyScanner final : public Scanner {
   void set_up(Draft& draft);
   /// The bytes of the record taken from the front of the input; 0 when it is incomplete.
   Result<std::size_t> scan_record(std::string_view input, bool last, Draft& draft);
+  /// Many binary records at once, of an element of which nothing is asked.
+  Result<std::size_t> keep_records(std::string_view input, Draft& draft);
   Result<std::size_t> read_text(const PlyElement& element, std::string_view input, bool last);
   Result<std::size_t> read_binary(const PlyElement& element, std::string_view input);
   Status take_record(const PlyElement& element, std::string_view bytes, Draft& draft);
@@ -48,6 +50,8 @@ class PlyScanner final : public Scanner {
   std::size_t element_ = 0;
   std::uint64_t index_ = 0;  ///< record within the element
   std::uint64_t vertices_ = 0;
+  std::vector<bool> passes_;     ///< elements whose binary records are kept as they are
+  std::vector<bool> has_lists_;  ///< elements whose records differ in length
   bool vertex_texcoords_ = false;
   bool vertex_colors_ = false;
   bool blank_ = false;  ///< the line read was blank
@@ -69,7 +73,8 @@ Result<std::size_t> PlyScanner::scan(std::string_view input, bool last, Draft& d
       draft.keep(input.substr(at));
       return input.size();
     }
-    Result<std::size_t> size = scan_record(input.substr(at), last, draft);
+    const std::string_view rest = input.substr(at);
+    Result<std::size_t> size = passes_[element_] ? keep_records(rest, draft) : scan_record(rest, last, draft);
     if (!size.ok()) {
       return size;
     }
@@ -117,13 +122,19 @@ void PlyScanner::set_up(Draft& draft) {
       roles |= 1U << static_cast<int>(property.role);
     }
   }
+  for (const PlyElement& element : header_->elements) {
+    const auto is_kept = [](const PlyProperty& property) { return property.role == PlyRole::keep; };
+    const auto is_list = [](const PlyProperty& property) { return property.is_list; };
+    has_lists_.push_back(std::any_of(element.properties.begin(), element.properties.end(), is_list));
+    passes_.push_back(!is_text() && std::all_of(element.properties.begin(), element.properties.end(), is_kept));
+  }
+  constexpr NumberStyle styles[] = {NumberStyle::text, NumberStyle::double_little, NumberStyle::double_big};
+  draft.set_style(styles[static_cast<int>(header_->encoding)]);
   vertex_texcoords_ = has(PlyRole::u) && has(PlyRole::v);
   vertex_colors_ = has(PlyRole::red) && has(PlyRole::green) && has(PlyRole::blue);
 }
 
 Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, Draft& draft) {
-  constexpr NumberStyle styles[] = {NumberStyle::text, NumberStyle::double_little, NumberStyle::double_big};
-  draft.set_style(styles[static_cast<int>(header_->encoding)]);
   const PlyElement& element = header_->elements[element_];
   blank_ = false;
   Result<std::size_t> size = is_text() ? read_text(element, input, last) : read_binary(element, input);
@@ -142,6 +153,24 @@ Result<std::size_t> PlyScanner::scan_record(std::string_view input, bool last, D
   }
   where_ += is_text() ? 1 : bytes.size();
   return size;
+}
+
+Result<std::size_t> PlyScanner::keep_records(std::string_view input, Draft& draft) {
+  constexpr std::size_t enough = 1 << 16;  // the draft may be full then
+  const PlyElement& element = header_->elements[element_];
+  std::string error;
+  std::size_t at = 0;
+  while (at < enough && index_ < element.count) {
+    const std::size_t size = ply_record_size(element, is_big_endian(), input.substr(at), error);
+    if (size == 0) {
+      break;
+    }
+    at += size;
+    where_ += size;
+    ++index_;
+  }
+  draft.keep(input.substr(0, at));
+  return error.empty() ? Result<std::size_t>(at) : failure({error});
 }
 
 Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string_view input, bool last) {
@@ -163,14 +192,19 @@ Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string
 }
 
 Result<std::size_t> PlyScanner::read_binary(const PlyElement& element, std::string_view input) {
+  const bool known = index_ > 0 && !has_lists_[element_];
   std::string error;
-  const std::size_t size = ply_record_size(element, is_big_endian(), input, error);
+  const std::size_t size = known ? record_.fields.back().end : ply_record_size(element, is_big_endian(), input, error);
   if (!error.empty()) {
     return failure({error});
   }
-  if (size > 0) {
-    read_binary_record(element, is_big_endian(), input, record_);
+  if (size == 0 || size > input.size()) {
+    return std::size_t{0};
   }
+  if (!known) {
+    lay_out_binary_record(element, is_big_endian(), input, record_);
+  }
+  load_binary_record(element, is_big_endian(), input, record_);
   return size;
 }
 

@@ -93,10 +93,10 @@ std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::str
   return static_cast<std::size_t>(size);
 }
 
-void read_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record) {
+void lay_out_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record) {
   record.fields.clear();
-  record.values.clear();
   std::size_t at = 0;
+  std::size_t first = 0;
   for (const PlyProperty& property : element.properties) {
     const std::size_t begin = at;
     std::size_t count = 1;
@@ -104,15 +104,23 @@ void read_binary_record(const PlyElement& element, bool big_endian, std::string_
       count = static_cast<std::size_t>(load_number(&input[at], property.count_type, big_endian));
       at += ply_size(property.count_type);
     }
-    const std::size_t first = record.values.size();
-    const std::size_t size = ply_size(property.type);
-    if (has_values(property)) {
-      for (std::size_t i = 0; i < count; ++i) {
-        record.values.push_back(load_number(input.data() + at + i * size, property.type, big_endian));
-      }
+    at += count * ply_size(property.type);
+    const std::size_t numbers = has_values(property) ? count : 0;
+    record.fields.push_back({begin, at, first, numbers});
+    first += numbers;
+  }
+  record.values.resize(first);
+}
+
+void load_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record) {
+  for (std::size_t p = 0; p < record.fields.size(); ++p) {
+    const auto [begin, end, first, count] = record.fields[p];
+    const PlyType type = element.properties[p].type;
+    const std::size_t size = ply_size(type);
+    const char* number = input.data() + end - count * size;
+    for (std::size_t i = 0; i < count; ++i, number += size) {
+      record.values[first + i] = load_number(number, type, big_endian);
     }
-    at += count * size;
-    record.fields.push_back({begin, at, first, record.values.size() - first});
   }
 }
 

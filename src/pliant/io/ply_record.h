@@ -24,8 +24,11 @@ struct PlyRecord {
 /// `error` is set when a list has a negative count.
 std::size_t ply_record_size(const PlyElement& element, bool big_endian, std::string_view input, std::string& error);
 
-/// Reads the binary record at the front of `input`, which holds all of it.
-void read_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record);
+/// Finds the fields of the binary record at the front of `input`, which holds all of it; the same ones for every record
+/// of an element without lists.
+void lay_out_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record);
+/// Reads the numbers of such a record.
+void load_binary_record(const PlyElement& element, bool big_endian, std::string_view input, PlyRecord& record);
 
 /// Reads one line. Returns what is wrong with it, if anything.
 std::string read_text_record(const PlyElement& element, std::string_view line, PlyRecord& record);
