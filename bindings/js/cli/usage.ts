@@ -8,7 +8,8 @@ export const help = `Usage: pliant <command> ...
   pliant deform SHAPE --script EDIT.json --out OUT [--report R.json] [--state S.json]
                 [--carry BIG --carry-out BIG_OUT]
       Runs an edit script over a shape. With keyframes in the script, OUT is a pattern
-      (frame_%04d.obj) or one animated .glb. --carry takes another file of any size along.
+      (frame_%04d.obj) or one animated .glb. --carry takes another file of any size along
+      (.ply .obj .xyz .off .stl), where all steps deform space.
   pliant inspect SHAPE [--json]
       What the shape is made of.
   pliant compare REST DEFORMED [--json]
