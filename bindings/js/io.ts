@@ -53,6 +53,8 @@ export async function write(shape: WritableShape, name: string): Promise<Uint8Ar
 }
 
 /** See {@link Files.rewrite}. */
-export function rewrite(source: FileSource | FileStream, name: string, move: Move, options?: RewriteOptions): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+export function rewrite(
+  source: FileSource | FileStream, name: string, move: Move, options?: RewriteOptions,
+): AsyncGenerator<Uint8Array<ArrayBuffer>> {
   return init().rewrite(source, name, move, options);
 }

@@ -129,6 +129,57 @@ TEST_CASE("ply binary: coordinates become double, normals go, everything else st
   }
 }
 
+/// The whole file at once, with every normal turned around.
+std::string with_normals(const std::string& file) {
+  Rewriter rewriter;
+  rewriter.open(FileFormat::ply, {.normals = true});
+  const Status pushed = rewriter.push(test::bytes_of(file), true);
+  REQUIRE_MESSAGE(pushed.ok(), pushed.message());
+  Numbers normals = rewriter.normals();
+  for (double& value : normals) value = 0.0 - value;
+  Bytes out;
+  REQUIRE(rewriter.emit(rewriter.points(), normals, out).ok());
+  return test::string_of(out);
+}
+
+TEST_CASE("ply: normals that are asked for stay with their type and place") {
+  const std::string header =
+      "element vertex 1\nproperty float nz\nproperty double z\nproperty double x\nproperty float nx\n"
+      "property double ny\nproperty double y\nend_header\n";
+  const std::string ascii = "ply\nformat ascii 1.0\n" + header;
+  CHECK(with_normals(ascii + "1 3 1  0.5 -2 2 \n") == ascii + "-1 3 1  -0.5 2 2 \n");
+  for (const bool big : {false, true}) {
+    const std::string start = std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n" + header;
+    const auto record = [big](float sign) {
+      return test::binary<float>({sign}, big) + test::binary<double>({3, 1}, big) +
+             test::binary<float>({0.5f * sign}, big) + test::binary<double>({-2.0 * static_cast<double>(sign), 2}, big);
+    };
+    CHECK(with_normals(start + record(1)) == start + record(-1));
+    CHECK(test::read(FileFormat::ply, start + record(1)).mesh().positions ==
+          Numbers{1, 2, 3});  // by name, not by order
+  }
+  const std::string whole =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
+      "property double z\nproperty char nx\nproperty char ny\nproperty char nz\nend_header\n1 2 3 0 0 9\n";
+  CHECK(with_normals(whole).ends_with("property double z\nend_header\n1 2 3\n"));  // no room for a turned one
+}
+
+TEST_CASE("a coordinate beyond what is asked for, and a face of vertices that are not there, have a place") {
+  const auto complaint = [](FileFormat format, const char* file) {
+    Rewriter rewriter;
+    rewriter.open(format, {.largest = 10.0});
+    return rewriter.push(test::bytes_of(file), true).message();
+  };
+  CHECK(complaint(FileFormat::xyz, "1 2 10\n1 -11 3\n") == "line 2: coordinate -11; expected at most 10 in magnitude");
+  CHECK(complaint(FileFormat::obj, "v 1 2 3\nf 1 1 3\nf 1 1 2\n") ==
+        "line 2: face refers to vertex 3; the file has 1 vertices");
+  CHECK(complaint(FileFormat::obj, "f 1 1 2\nv 1 2 3\nv 1 2 3\n").empty());
+  CHECK(complaint(FileFormat::ply,
+                  "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nelement vertex 2\n"
+                  "property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n1 2 3\n1 2 3\n") ==
+        "line 10: face refers to vertex 2; the file has 2 vertices, counted from 0");
+}
+
 TEST_CASE("off: normals go and the N of the header with them") {
   CHECK(rewritten(FileFormat::off, test::samples()[4].file, 4096) ==
         "# first a comment\nSTCOFF # with everything\n\n4 2 0\n"

@@ -240,9 +240,14 @@ export interface RawDocument extends RawObject {
 
 /** Streams a file through, replacing coordinates and keeping every other byte (bind_io.cpp). */
 export interface RawRewriter extends RawObject {
-  /** largest: a coordinate beyond it is an error of the file; normals: those of vertices are turned instead of left out. */
+  /**
+   * largest: a coordinate beyond it is an error of the file. normals: those of vertices are turned instead of left out.
+   */
   open(format: string, largest: number, normals: boolean): RawStatus;
-  /** bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found, and `normals` as many normals, or none. */
+  /**
+   * bytes: the next piece of the file (empty and last = true at the end). Then `points` holds the coordinates found,
+   * and `normals` as many normals, or none.
+   */
   push(scratch: RawScratch, last: boolean): { status: RawStatus; points: Float64Array; normals: Float64Array };
   /** doubles: the new coordinates of the last push, as many, then the normals. `bytes` is what to write. */
   emit(scratch: RawScratch): { status: RawStatus; bytes: Uint8Array };

@@ -23,9 +23,13 @@ export interface Carry {
 /** What is asked for, if anything. Errors: a Failure. */
 export function readCarry({ carry: from, "carry-out": to }: Record<string, string | undefined>): Carry | undefined {
   if (from === undefined && to === undefined) return undefined;
-  if (from === undefined || to === undefined) throw new Failure("--carry and --carry-out go together; see pliant --help");
+  if (from === undefined || to === undefined) {
+    throw new Failure("--carry and --carry-out go together; see pliant --help");
+  }
   const format = formatOf(from, textFormats);
-  if (formatOf(to, textFormats) !== format) throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+  if (formatOf(to, textFormats) !== format) {
+    throw new Failure(`${to}: the extension is not that of ${from}; expected .${format}`);
+  }
   return { from, to };
 }
 
@@ -49,7 +53,8 @@ export async function carry(
       await onFile(to, () => target.writeFile(piece));
     }
   } catch (error) {
-    throw error instanceof PliantError ? new Failure(error.message, { cause: error }) : error; // it begins with the path
+    // Those of reading begin with the path.
+    throw error instanceof PliantError ? new Failure(error.message, { cause: error }) : error;
   } finally {
     await target.close();
   }
@@ -65,7 +70,9 @@ function moveOf(edit: FinishedEdit, dimension: 2 | 3): Move {
   };
 }
 
-async function* piecesOf(path: string, signal: AbortSignal, show: (done: number, total: number) => void): AsyncGenerator<Uint8Array> {
+async function* piecesOf(
+  path: string, signal: AbortSignal, show: (done: number, total: number) => void,
+): AsyncGenerator<Uint8Array> {
   const source = await onFile(path, () => open(path));
   try {
     const { size } = await onFile(path, () => source.stat());

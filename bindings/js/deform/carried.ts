@@ -18,10 +18,15 @@ export function readPoints(points: unknown, out: unknown, dimension: number, nam
 }
 
 /** Normals, one a point. Errors: invalid-option; not-solvable in the plane. */
-export function readNormals(points: unknown, normals: unknown, out: unknown, dimension: number): Carried & { at: FloatArray } {
-  if (dimension !== 3) throw new PliantError("not-solvable", "a shape in the plane has no normals to turn; expected a shape in space");
+export function readNormals(
+  points: unknown, normals: unknown, out: unknown, dimension: number,
+): Carried & { at: FloatArray } {
+  if (dimension !== 3) {
+    throw new PliantError("not-solvable", "a shape in the plane has no normals to turn; expected a shape in space");
+  }
   const { given: at } = readPoints(points, undefined, 3);
   const place = new Place("invalid-option", "normals");
   const carried = readPoints(normals, out, 3, place.path);
-  return carried.given.length === at.length ? { ...carried, at } : place.fail(normals, `${at.length} numbers, three a point`);
+  if (carried.given.length === at.length) return { ...carried, at };
+  return place.fail(normals, `${at.length} numbers, three a point`);
 }

@@ -64,8 +64,9 @@ export abstract class Deformation<S extends object = State, R extends RawDeforma
   }
 
   /**
-   * Normals of a surface at points in rest coordinates, three numbers a point, turned as the deformation turns the surface
-   * there (by the cofactors of its differential); each keeps its length. In space alone. `out` may be `normals`.
+   * Normals of a surface at points in rest coordinates, three numbers a point, turned as the deformation turns the
+   * surface there (by the cofactors of its differential); each keeps its length. In space alone.
+   * `out` may be `normals`.
    * Errors: not-solvable where the method does not deform space, and in the plane.
    */
   transformNormals(points: ArrayLike<number>, normals: Float32Array): Float32Array;

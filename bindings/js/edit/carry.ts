@@ -33,7 +33,9 @@ function refuse(reason: string): never {
 }
 
 /** Moves the points that lie in a part, and turns their normals, in place. Errors: not-solvable. */
-export function carryPlaced(plan: PlacePlan, rest: Rest, points: Float64Array, normals: Float64Array | undefined): void {
+export function carryPlaced(
+  plan: PlacePlan, rest: Rest, points: Float64Array, normals: Float64Array | undefined,
+): void {
   requirePlaces(plan);
   const { positions, dimension } = rest;
   const vertices = checkedParts(plan, rest);

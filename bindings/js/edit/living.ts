@@ -222,8 +222,8 @@ export class Edit {
   }
 
   /**
-   * Other points, in coordinates of the shape at rest, carried through all steps that stand; single precision in, single
-   * out. `out` may be `points`. Errors: not-solvable where a step moves a surface and not the space around it.
+   * Other points, in coordinates of the shape at rest, carried through all steps that stand; single precision in,
+   * single out. `out` may be `points`. Errors: not-solvable where a step moves a surface and not the space around it.
    */
   transformPoints(points: Float32Array): Float32Array;
   transformPoints(points: ArrayLike<number>): Float64Array;
@@ -236,7 +236,9 @@ export class Edit {
     return result;
   }
 
-  /** Normals of a surface at such points, turned through all steps that stand: see {@link Deformation.transformNormals}. */
+  /**
+   * Normals of a surface at such points, turned through all steps that stand: see {@link Deformation.transformNormals}.
+   */
   transformNormals(points: ArrayLike<number>, normals: Float32Array): Float32Array;
   transformNormals(points: ArrayLike<number>, normals: ArrayLike<number>): Float64Array;
   transformNormals<T extends FloatArray>(points: ArrayLike<number>, normals: ArrayLike<number>, out: T): T;

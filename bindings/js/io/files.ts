@@ -29,7 +29,7 @@ export class Files {
     const given = fields(place, options, ["signal", "onProgress"]);
     const signal = readSignal(place.at("signal"), given.signal);
     const onProgress = readCallback<ReadOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
-    const format = formatOf(new Place("invalid-option", "name"), name);
+    const format = formatOf(new Place("invalid-option", "name"), name, formats);
     throwIfAborted(signal);
     return named(name, async () => {
       const bytes = await bytesOf(source);
@@ -46,7 +46,7 @@ export class Files {
    * Errors: invalid-shape, invalid-option, too-large.
    */
   async write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
-    const format = formatOf(new Place("invalid-option", "name"), name);
+    const format = formatOf(new Place("invalid-option", "name"), name, formats);
     const mesh = readMesh(shape);
     if (shape.source && shape.format === format) {
       const bytes = await bytesOf(shape.source);
@@ -59,11 +59,13 @@ export class Files {
 
   /**
    * A file of any size with its vertices at other places, in bounded memory: the pieces of the new file, in the format
-   * of the old one. `move` changes the coordinates of a piece in place, and the normals that a PLY file has of vertices;
-   * all else stays as it is, byte for byte, but for normals that say not whose they are (OBJ, OFF), which are left out.
-   * Coordinates become double. Not for .glb. Errors: as `read`, and those of `move`.
+   * of the old one. `move` changes the coordinates of a piece in place, and the normals that a PLY file has of
+   * vertices; all else stays as it is, byte for byte, but for normals that say not whose they are (OBJ, OFF), which
+   * are left out. Coordinates become double. Not for .glb. Errors: as `read`, and those of `move`.
    */
-  async *rewrite(source: FileSource | FileStream, name: string, move: Move, options: RewriteOptions = {}): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+  async *rewrite(
+    source: FileSource | FileStream, name: string, move: Move, options: RewriteOptions = {},
+  ): AsyncGenerator<Uint8Array<ArrayBuffer>> {
     const place = new Place("invalid-option", "options");
     const signal = readSignal(place.at("signal"), fields(place, options, ["signal"]).signal);
     if (typeof move !== "function") new Place("invalid-option", "move").fail(move, "a function");
@@ -108,13 +110,17 @@ async function* streamOf(source: unknown): AsyncGenerator<Uint8Array> {
 }
 
 async function* chunks(source: unknown): AsyncGenerator<Uint8Array> {
-  const iterable = typeof source === "object" && source !== null && (Symbol.asyncIterator in source || Symbol.iterator in source);
-  if (!iterable) new Place("invalid-option", "source").fail(source, "a Blob, an ArrayBuffer, a typed array or a stream of bytes");
+  const given = typeof source === "object" && source !== null ? source : {};
+  if (!(Symbol.asyncIterator in given || Symbol.iterator in given)) {
+    const expected = "a Blob, an ArrayBuffer, a typed array or a stream of bytes";
+    new Place("invalid-option", "source").fail(source, expected);
+  }
   for await (const piece of source as AsyncIterable<unknown>) yield chunk(piece);
 }
 
 function chunk(piece: unknown): Uint8Array {
-  return piece instanceof Uint8Array ? piece : new Place("invalid-option", "source").reject("gives something else than bytes; expected a Uint8Array");
+  if (piece instanceof Uint8Array) return piece;
+  return new Place("invalid-option", "source").reject("gives something else than bytes; expected Uint8Arrays");
 }
 
 async function bytesOf(source: unknown): Promise<Uint8Array<ArrayBuffer>> {

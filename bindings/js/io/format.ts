@@ -12,7 +12,7 @@ export type TextFormat = (typeof textFormats)[number];
 export type FileFormat = (typeof formats)[number];
 
 /** The format that a name asks for. Errors: invalid-option. */
-export function formatOf<Format extends FileFormat = FileFormat>(place: Place, name: unknown, among: readonly Format[] = formats as readonly FileFormat[] as readonly Format[]): Format {
+export function formatOf<Format extends FileFormat>(place: Place, name: unknown, among: readonly Format[]): Format {
   const expected = `a name that ends in ${among.map((format) => `.${format}`).join(" ")}`;
   if (typeof name !== "string") return place.fail(name, expected);
   const ending = /\.([^./\\]*)$/.exec(name)?.[1].toLowerCase();

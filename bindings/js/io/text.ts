@@ -82,7 +82,8 @@ export async function rewriteText(
     done += points.length;
   };
   const pieces: Uint8Array[] = [];
-  for await (const piece of rewritten(io, format, piecesOf(file), move, { largest: Infinity, normals: false })) pieces.push(piece);
+  const taken = { largest: Infinity, normals: false };
+  for await (const piece of rewritten(io, format, piecesOf(file), move, taken)) pieces.push(piece);
   if (done === positions.length) return joined(pieces);
   throw new PliantError(
     "invalid-shape",
@@ -105,8 +106,8 @@ function joined(pieces: Uint8Array[]): Uint8Array<ArrayBuffer> {
 }
 
 /**
- * Changes the coordinates of a piece of a file, three a point, in place; and the normals of its points, where the format
- * says which point each belongs to: as many, of any length. The points of normals are those before they are changed.
+ * Changes the coordinates of a piece of a file, three a point, in place; and the normals of its points, where the
+ * format says which point each belongs to: as many, of any length.
  */
 export type Move = (points: Float64Array, normals: Float64Array | undefined) => void | Promise<void>;
 
@@ -118,11 +119,15 @@ interface Taken {
 }
 
 /**
- * A file passed through in pieces, of any size: those of the new file, in memory bounded by the size of a piece. Errors:
- * parse-error, invalid-shape, those of its arguments.
+ * A file passed through in pieces, of any size: those of the new file, in memory bounded by the size of a piece.
+ * Errors: parse-error, invalid-shape, those of its arguments.
  */
 export function rewritten(
-  io: IoModule, format: TextFormat, pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>, move: Move, { largest, normals }: Taken,
+  io: IoModule,
+  format: TextFormat,
+  pieces: Iterable<Uint8Array> | AsyncIterable<Uint8Array>,
+  move: Move,
+  { largest, normals }: Taken,
 ): AsyncGenerator<Uint8Array<ArrayBuffer>> {
   return io.stream(async function* ({ Rewriter, Scratch }, free) {
     const [rewriter, scratch] = [free(new Rewriter()), free(new Scratch())];
@@ -134,7 +139,9 @@ export function rewritten(
   });
 }
 
-async function passed(rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: Move): Promise<Uint8Array<ArrayBuffer>> {
+async function passed(
+  rewriter: RawRewriter, scratch: RawScratch, piece: Uint8Array, last: boolean, move: Move,
+): Promise<Uint8Array<ArrayBuffer>> {
   put(scratch.bytes(piece.length), piece);
   const found = rewriter.push(scratch, last);
   accept(found.status);

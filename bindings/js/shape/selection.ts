@@ -31,7 +31,9 @@ export interface Select {
   readonly spatial: boolean;
 }
 
-const selecting = (spatial: boolean, select: (rest: Float64Array) => Uint8Array): Select => Object.assign(select, { spatial });
+function selecting(spatial: boolean, select: (rest: Float64Array) => Uint8Array): Select {
+  return Object.assign(select, { spatial });
+}
 
 type Reader = (place: Place, value: unknown, extent: Extent, depth: number) => Select;
 
@@ -83,14 +85,16 @@ const readers: Record<string, Reader> = {
 };
 
 function where(dimension: number, test: (positions: Float64Array, at: number) => boolean): Select {
-  return selecting(true, (rest) => Uint8Array.from({ length: rest.length / dimension }, (_, i) => Number(test(rest, i * dimension))));
+  return selecting(true, (rest) =>
+    Uint8Array.from({ length: rest.length / dimension }, (_, i) => Number(test(rest, i * dimension))));
 }
 
 function combined(join: (a: number, b: number) => number): Reader {
   return (place, value, extent, depth) => {
     const parts = Array.from(filled(place, value, "selections"), (part, i) => read(place.item(i), part, extent, depth));
     const spatial = parts.every((part) => part.spatial);
-    return selecting(spatial, (rest) => parts.map((select) => select(rest)).reduce((a, b) => a.map((x, i) => join(x, b[i]))));
+    return selecting(spatial, (rest) =>
+      parts.map((select) => select(rest)).reduce((a, b) => a.map((x, i) => join(x, b[i]))));
   };
 }
 

@@ -103,7 +103,8 @@ export function matrixOf(transform: CheckedTransform, center: number[]): number[
 /** What turns normals where a matrix moves points: the cofactors of its linear part, without a translation. */
 export function cofactors(m: number[]): number[] {
   const entry = (r: number, c: number) => m[4 * (c % 3) + (r % 3)];
-  const minor = (r: number, c: number) => entry(r + 1, c + 1) * entry(r + 2, c + 2) - entry(r + 1, c + 2) * entry(r + 2, c + 1);
+  const minor = (r: number, c: number) =>
+    entry(r + 1, c + 1) * entry(r + 2, c + 2) - entry(r + 1, c + 2) * entry(r + 2, c + 1);
   return [0, 1, 2].flatMap((c) => [minor(0, c), minor(1, c), minor(2, c), 0]).concat(0, 0, 0, 1);
 }
 

@@ -143,9 +143,13 @@ class ObjScanner final : public LineScanner {
   Status scan_line(std::string_view line, Draft& draft) override;
   Status read_texcoord(std::string_view line, std::size_t at);
   static void keep_without_normals(std::string_view line, std::size_t at, Draft& draft);
+  /// Without a collector, which looks at all ids in the end.
+  Status check_face(std::string_view words);
 
   PolygonCollector* polygons_;
   std::optional<ObjFaceReader> faces_;
+  std::uint64_t largest_id_ = 0;  ///< of the faces' vertices, and where it stands
+  std::uint64_t largest_line_ = 0;
 };
 
 /// Statements of numbers continue behind a backslash; a name or a comment may simply end with one.
@@ -180,11 +184,34 @@ Status ObjScanner::scan_line(std::string_view line, Draft& draft) {
   }
   if (keyword == "f") {
     keep_without_normals(line, at, draft);
-    return faces_ ? faces_->add(line.substr(at), line_, vertices_) : Status();
+    return faces_ ? faces_->add(line.substr(at), line_, vertices_) : check_face(without_comment(line.substr(at)));
   }
   draft.keep(line);
   if (keyword == "vt" && polygons_) {
     return read_texcoord(line, at);
+  }
+  return {};
+}
+
+Status ObjScanner::check_face(std::string_view words) {
+  std::size_t at = 0;
+  for (std::string_view word = next_word(words, at); !word.empty(); word = next_word(words, at)) {
+    if (!is_readable_corner(word)) {
+      return failure({"face corner is ", quoted(word), "; expected vertex ids, as in 1/2/3"});
+    }
+    const bool negative = word.front() == '-';
+    word.remove_prefix(negative || word.front() == '+' ? 1 : 0);
+    const std::uint64_t id = *read_count(word.substr(0, word.find('/')));
+    if (id == 0) {
+      return failure({"face refers to vertex 0; ids count from 1"});
+    }
+    if (negative && id > vertices_) {
+      return failure({"face refers to vertex -", id, "; ", vertices_, " stand before it"});
+    }
+    if (!negative && id > largest_id_) {
+      largest_id_ = id;
+      largest_line_ = line_;
+    }
   }
   return {};
 }
@@ -233,8 +260,15 @@ void ObjScanner::keep_without_normals(std::string_view line, std::size_t at, Dra
 
 Status ObjScanner::finish() {
   Status vertices_found = require_vertices(vertices_);
-  if (!vertices_found.ok() || !faces_) {
+  if (!vertices_found.ok()) {
     return vertices_found;
+  }
+  if (largest_id_ > vertices_) {
+    return {ErrorCode::parse_error, message({"line ", largest_line_, ": face refers to vertex ", largest_id_,
+                                             "; the file has ", vertices_, " vertices"})};
+  }
+  if (!faces_) {
+    return {};
   }
   Status faces_read = faces_->flush();
   return faces_read.ok() ? polygons_->finish(vertices_, "line", 1) : faces_read;

@@ -15,6 +15,10 @@
 namespace pliant::io {
 namespace {
 
+bool names_vertices(const PlyProperty& property) {
+  return property.role == PlyRole::corners || property.role == PlyRole::strips;
+}
+
 class PlyScanner final : public Scanner {
  public:
   explicit PlyScanner(PolygonCollector* polygons) : polygons_(polygons) {}
@@ -37,6 +41,7 @@ class PlyScanner final : public Scanner {
   Result<std::size_t> read_binary(const PlyElement& element, std::string_view input);
   Status take_record(const PlyElement& element, std::string_view bytes, Draft& draft);
   Status take_vertex(const PlyElement& element, std::string_view bytes, Draft& draft);
+  Status check_ids(const PlyElement& element) const;
   Status take_polygons(const PlyElement& element);
   Status add_polygon(std::span<const double> ids, std::span<const double> texcoords);
   Status add_strips(std::span<const double> ids);
@@ -50,8 +55,10 @@ class PlyScanner final : public Scanner {
   std::size_t element_ = 0;
   std::uint64_t index_ = 0;  ///< record within the element
   std::uint64_t vertices_ = 0;
-  std::vector<bool> passes_;     ///< elements whose binary records are kept as they are
-  std::vector<bool> has_lists_;  ///< elements whose records differ in length
+  std::vector<bool> passes_;          ///< elements whose binary records are kept as they are
+  std::vector<bool> has_lists_;       ///< elements whose records differ in length
+  std::vector<bool> names_vertices_;  ///< elements with vertex ids
+  std::uint64_t vertex_count_ = 0;    ///< as the header has it
   bool vertex_texcoords_ = false;
   bool vertex_colors_ = false;
   bool blank_ = false;  ///< the line read was blank
@@ -116,14 +123,19 @@ void PlyScanner::set_up(Draft& draft) {
   for (PlyElement& element : header_->elements) {
     for (PlyProperty& property : element.properties) {
       // Without a collector nobody asks for what is not a coordinate.
-      if (!polygons_ && property.role > PlyRole::nz) {
+      if (!polygons_ && property.role > PlyRole::nz && !names_vertices(property)) {
         property.role = PlyRole::keep;
       }
       roles |= 1U << static_cast<int>(property.role);
     }
   }
   for (const PlyElement& element : header_->elements) {
-    const auto is_kept = [](const PlyProperty& property) { return property.role == PlyRole::keep; };
+    const bool is_vertex = element.name == "vertex";
+    const auto is_kept = [&](const PlyProperty& property) {
+      return property.role == PlyRole::keep || (!polygons_ && !is_vertex);
+    };
+    names_vertices_.push_back(std::any_of(element.properties.begin(), element.properties.end(), names_vertices));
+    vertex_count_ = is_vertex ? element.count : vertex_count_;
     const auto is_list = [](const PlyProperty& property) { return property.is_list; };
     has_lists_.push_back(std::any_of(element.properties.begin(), element.properties.end(), is_list));
     passes_.push_back(!is_text() && std::all_of(element.properties.begin(), element.properties.end(), is_kept));
@@ -165,6 +177,14 @@ Result<std::size_t> PlyScanner::keep_records(std::string_view input, Draft& draf
     if (size == 0) {
       break;
     }
+    if (names_vertices_[element_]) {
+      lay_out_binary_record(element, is_big_endian(), input.substr(at), record_);
+      load_binary_record(element, is_big_endian(), input.substr(at), record_);
+      Status checked = check_ids(element);
+      if (!checked.ok()) {
+        return checked;
+      }
+    }
     at += size;
     where_ += size;
     ++index_;
@@ -181,7 +201,8 @@ Result<std::size_t> PlyScanner::read_text(const PlyElement& element, std::string
   const std::string_view line = input.substr(0, end);
   std::size_t at = 0;
   blank_ = next_word(line, at).empty();
-  if (blank_ || (element.name != "vertex" && !polygons_)) {
+  const bool is_read = polygons_ || element.name == "vertex" || names_vertices_[element_];
+  if (blank_ || !is_read) {
     return end;
   }
   const std::string error = read_text_record(element, line, record_);
@@ -213,7 +234,31 @@ Status PlyScanner::take_record(const PlyElement& element, std::string_view bytes
     return take_vertex(element, bytes, draft);
   }
   draft.keep(bytes);
-  return polygons_ ? take_polygons(element) : Status();
+  return polygons_ ? take_polygons(element) : check_ids(element);
+}
+
+/// Without a collector, which looks at them all in the end.
+Status PlyScanner::check_ids(const PlyElement& element) const {
+  for (std::size_t i = 0; names_vertices_[element_] && i < record_.fields.size(); ++i) {
+    const PlyRole role = element.properties[i].role;
+    if (!names_vertices(element.properties[i])) {
+      continue;
+    }
+    const auto& [begin, end, first, count] = record_.fields[i];
+    for (std::size_t v = first; v < first + count; ++v) {
+      const double value = record_.values[v];
+      const bool good = value >= 0.0 && value < static_cast<double>(vertex_count_) && value == std::floor(value);
+      if (good || (role == PlyRole::strips && value == -1.0)) {
+        continue;
+      }
+      const Result<std::uint32_t> id = vertex_id(value);
+      if (!id.ok()) {
+        return id.status();
+      }
+      return failure({"face refers to vertex ", *id, "; the file has ", vertex_count_, " vertices, counted from 0"});
+    }
+  }
+  return {};
 }
 
 /// The number that stands for full light.
