@@ -11,7 +11,9 @@ import type { Rest } from "./rest.js";
 /** Errors: not-solvable where a step moves a surface and not the space around it. */
 export function requireCarries(plan: StepPlan): void {
   if (plan.kind === "place") return requirePlaces(plan);
-  if (plan.follow.length > 0) refuse(`${plan.place.at("follow").path} names vertices and no part of space; expected none`);
+  if (plan.follow.length > 0) {
+    refuse(`${plan.place.at("follow").path} moves vertices apart from the space around them; expected none`);
+  }
   const solver = plan.kind === "solver" ? plan.options : plan.finish?.options;
   if (solver && readMethod(plan.place, solver.method).carries) return;
   const method = solver?.method ?? plan.kind;
