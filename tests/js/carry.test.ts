@@ -284,6 +284,10 @@ describe("a living edit", () => {
     const arap = { ...bend, method: "arap", options: {} } as Step;
     const cases: [Step, RegExp][] = [
       [arap, /not the space around it/],
+      [
+        { ...bend, follow: [{ select: { vertices: [0] }, along: { vertices: [1] } }] } as Step,
+        /steps\[0\]\.follow moves vertices apart/,
+      ],
       [placed({ select: { vertices: [1, 2] }, move: {} }), /steps\[0\]\.parts\[0\]\.select names vertices/],
       [placed({ select: { any: [right, { vertices: [1] }] }, move: {} }), /select names vertices/],
       [placed({ select: { vertices: [3] }, targets: [[1, 0, 0]] }), /steps\[0\]\.parts\[0\]\.targets/],

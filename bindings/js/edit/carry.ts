@@ -34,11 +34,10 @@ function refuse(reason: string): never {
   throw new PliantError("not-solvable", reason);
 }
 
-/** Moves the points that lie in a part, and turns their normals, in place. Errors: not-solvable. */
+/** Moves the points that lie in a part, and turns their normals, in place. The plan is one that carries. */
 export function carryPlaced(
   plan: PlacePlan, rest: Rest, points: Float64Array, normals: Float64Array | undefined,
 ): void {
-  requirePlaces(plan);
   const { positions, dimension } = rest;
   const vertices = checkedParts(plan, rest);
   const taken = new Uint8Array(points.length / dimension);

@@ -101,7 +101,7 @@ export class PlaceStage extends Stage<PlacePlan> {
     };
   }
 
-  carry(points: Float64Array, normals?: Float64Array): void {
+  protected takeAlong(points: Float64Array, normals?: Float64Array): void {
     carryPlaced(this.plan, this.rest, points, normals);
   }
 

@@ -4,7 +4,6 @@ import type { State } from "../boundary/state.js";
 import type { Step } from "../deform/deformer.js";
 import { carryThrough } from "../deform/deformation.js";
 import { type Refinement, Sketch } from "../deform/sketch.js";
-import { requireCarries } from "./carry.js";
 import { Finisher } from "./finisher.js";
 import { located } from "./located.js";
 import type { PosePlan, SketchPlan } from "./plan.js";
@@ -176,8 +175,7 @@ export class SketchStage extends Stage<SketchPlan> {
     };
   }
 
-  carry(points: Float64Array, normals?: Float64Array): void {
-    requireCarries(this.plan);
+  protected takeAlong(points: Float64Array, normals?: Float64Array): void {
     carryThrough(this.#finisher!.deformer, points, normals);
   }
 

@@ -222,7 +222,7 @@ export class SolverStage extends Stage<SolverPlan> {
     return this.#sound && super.isAt(plan, rest);
   }
 
-  carry(points: Float64Array, normals?: Float64Array): void {
+  protected takeAlong(points: Float64Array, normals?: Float64Array): void {
     carryThrough(this.#model.deformer, points, normals);
   }
 

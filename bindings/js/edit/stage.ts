@@ -4,6 +4,7 @@ import type { FloatArray } from "../boundary/check.js";
 import type { State } from "../boundary/state.js";
 import type { Step } from "../deform/deformer.js";
 import type { Refinement } from "../deform/sketch.js";
+import { requireCarries } from "./carry.js";
 import { Followers, type Made } from "./follow.js";
 import { extendedLabels, grown } from "./growth.js";
 import type { StepPlan } from "./plan.js";
@@ -62,8 +63,15 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
   abstract state(): State;
   abstract report(): StepReport;
   /** Carries points of the rest shape's space, and turns their normals, in place. Errors: not-solvable. */
-  abstract carry(points: Float64Array, normals?: Float64Array): void;
+  carry(points: Float64Array, normals?: Float64Array): void {
+    requireCarries(this.plan);
+    this.takeAlong(points, normals);
+  }
+
   abstract dispose(): void;
+
+  /** As `carry`, by a plan that does. */
+  protected abstract takeAlong(points: Float64Array, normals?: Float64Array): void;
 
   /** How far it has come, and what else it takes to come back. */
   protected abstract save(): Omit<StageMoment, "source">;
