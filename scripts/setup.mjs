@@ -27,6 +27,7 @@ const debian = [
   },
   { name: "libtinyobjloader-dev", for: build, present: () => existsSync("/usr/include/tiny_obj_loader.h") },
   { name: "libnanoflann-dev", for: build, present: () => existsSync("/usr/include/nanoflann.hpp") },
+  { name: "zopfli", for: build, present: () => onPath("zopfli") },
   { name: "g++", for: ["test", "bench"], present: () => onPath("g++") },
   { name: "doctest-dev", for: ["test", "bench"], present: () => existsSync("/usr/include/doctest/doctest.h") },
   { name: "chromium", for: ["test"], present: () => existsSync("/usr/bin/chromium") },

@@ -1,6 +1,7 @@
 // The two figures of the readout that need every vertex, stretch and volume: measured by the library in its worker, the
 // newest positions after those before, never faster than a reader of the figures can follow.
 import type { Quality } from "../solver/pliant.ts";
+import { turn } from "../files/turn.ts";
 import { vertexCount, type ShapeData } from "./shape.ts";
 
 export interface Measures {
@@ -43,6 +44,7 @@ export class Meter {
 
   private async run(): Promise<void> {
     this.running = true;
+    await turn(); // drawing comes first
     while (this.wanted) {
       this.measured = this.wanted;
       this.wanted = undefined;

@@ -24,6 +24,7 @@ export function pick(
   raycaster.setFromCamera(new Vector2(x, y), viewport.camera);
   const distance = viewport.camera.position.distanceTo(viewport.controls.target);
   raycaster.params.Points.threshold = 0.008 * distance;
+  view.bound();
   const first = raycaster.intersectObject(view.object, false)[0];
   if (!first) return undefined;
   const toViewer = raycaster.ray.direction.clone().negate();

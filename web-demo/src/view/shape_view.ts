@@ -1,7 +1,7 @@
 // The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshPhongMaterial,
-  Points, PointsMaterial, SRGBColorSpace, Texture,
+  Points, PointsMaterial, Sphere, SRGBColorSpace, Texture, Vector3,
 } from "three";
 import type { Doc } from "../edit/document.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
@@ -20,6 +20,9 @@ const linear = Float32Array.from({ length: 256 }, (_, c) => {
   const x = c / 255;
   return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
 });
+
+/** Around any shape. */
+const everywhere = new Sphere(new Vector3(), Infinity);
 
 export class ShapeView {
   readonly group = new Group();
@@ -83,8 +86,14 @@ export class ShapeView {
   update(positions: Float32Array, normals: Float32Array): void {
     this.write("position", positions);
     this.write("normal", normals);
-    this.geometry.boundingSphere = null; // picking computes it again
-    this.geometry.boundingBox = null;
+    this.geometry.boundingSphere = everywhere; // a drawing would look through all vertices for a smaller one
+  }
+
+  /** Before a ray looks for the shape: rays that pass by its sphere are told at once. */
+  bound(): void {
+    if (this.geometry.boundingSphere !== everywhere) return;
+    this.geometry.boundingSphere = null; // or it would be made smaller in its place
+    this.geometry.computeBoundingSphere();
   }
 
   private write(name: string, values: Float32Array): void {
