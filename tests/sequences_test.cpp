@@ -70,9 +70,14 @@ class Sequence {
     REQUIRE(deformer_->move_handle(random_handle().id, gentle()).ok());
   }
 
-  /// Both to rest; how far apart, over the diagonal. 0 where exact targets cannot be met.
-  double distance_to_fresh() {
-    test::settle(*deformer_, 1000, 1e-13);
+  struct Comparison {
+    double distance = 0.0;       ///< over the diagonal
+    bool contradictory = false;  ///< exact targets that cannot be met
+    bool at_rest = false;        ///< both
+  };
+  /// With a fresh deformer, both as far as they come.
+  Comparison with_fresh() {
+    const bool at_rest = test::settle(*deformer_, 1000, 1e-13).converged;
     const auto fresh = method_.make(shape_);
     if (options_) method_.live_options[*options_](*fresh);
     const auto vertices_of = [&](const std::vector<Index>& points) {
@@ -86,11 +91,9 @@ class Sequence {
       REQUIRE(id.ok());
       REQUIRE(fresh->set_targets(*id, handle.targets).ok());
     }
-    test::settle(*fresh, 1000, 1e-13);
-    // Exact targets that contradict each other have many minima, and where they nearly do the graph is strained so much
-    // that what is left of a gap shows in the result many times over: enough that nothing breaks.
-    if (method_.exact && std::max(gap(*fresh), gap(*deformer_)) > 1e-6) return 0.0;
-    return test::distance(deformer_->positions(), fresh->positions()) / shape_->diagonal();
+    const bool fresh_at_rest = test::settle(*fresh, 1000, 1e-13).converged;
+    return {test::distance(deformer_->positions(), fresh->positions()) / shape_->diagonal(),
+            method_.exact && std::max(gap(*fresh), gap(*deformer_)) > 1e-3, at_rest && fresh_at_rest};
   }
 
  private:
@@ -163,25 +166,35 @@ class Sequence {
   std::optional<State> saved_;
 };
 
-/// Compares some sequences with a fresh deformer, each three times.
-void check_sequences(const test::Method& method, std::uint32_t first_seed) {
+/// Compares a sequence with a fresh deformer, several times.
+void check_sequence(const test::Method& method, std::uint32_t seed, int parts = 3) {
   CAPTURE(method.name);
-  const test::Mesh mesh = test::potato(3);
-  for (std::uint32_t seed = first_seed; seed < first_seed + 4; ++seed) {
-    CAPTURE(seed);
-    Sequence sequence(method, mesh, seed);
-    for (int part = 0; part < 3; ++part) {
-      for (int i = 0; i < 12; ++i) sequence.call();
-      sequence.move();
-      CHECK(sequence.distance_to_fresh() < (method.exact ? 1e-5 : 1e-6));
-    }
+  CAPTURE(seed);
+  Sequence sequence(method, test::potato(3), seed);
+  for (int part = 0; part < parts; ++part) {
+    for (int i = 0; i < 12; ++i) sequence.call();
+    sequence.move();
+    const auto found = sequence.with_fresh();
+    // Exact targets that contradict each other press the shape flat in places, at energies a million times those of
+    // gentle motions: not all of that comes to rest.
+    if (found.contradictory && !found.at_rest) continue;
+    CHECK(found.distance < (found.contradictory ? 1e-4 : 1e-6));
   }
 }
 
 }  // namespace
 
 TEST_CASE("law 9: after any sequence of calls the result is that of a fresh deformer") {
-  std::uint32_t seed = 100;
-  for (const auto& method : test::methods()) check_sequences(method, seed += 100);
-  for (const auto& method : test::exact_methods()) check_sequences(method, seed += 100);
+  std::uint32_t first_seed = 100;
+  for (const auto& methods : {test::methods(), test::exact_methods()}) {
+    for (const auto& method : methods) {
+      first_seed += 100;
+      for (std::uint32_t seed = first_seed; seed < first_seed + 4; ++seed) check_sequence(method, seed);
+    }
+  }
+}
+
+TEST_CASE("law 9: exact targets, more of which want to be met when the first multipliers are found") {
+  // One of both stopped there once, and called it converged or gave up.
+  for (const auto& method : test::exact_methods()) check_sequence(method, 1105, 1);
 }

@@ -96,7 +96,8 @@ Status GraphSolver::factorize_metric(const DeformationGraph& graph) {
 void GraphSolver::set_targets(const Points& targets) {
   displacement_ = targets - constrained_;
   shift_.setZero();
-  last_violation_ = 0.0;
+  shift_pull_.setZero(x_.size());
+  last_gap_ = 0.0;
   energy_.constraints().set_targets(displacement_);
   evaluate();
   update_gradient();
@@ -224,7 +225,9 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
     barrier_ = barrier_before;
     if (memory_.empty()) {
       const bool rounding = -slope() < kRounding * (1.0 + total());
-      return Outcome{false, (rounding || gradient_gone(tolerance)) && !tighten(tolerance)};
+      if (!rounding && !gradient_gone(tolerance)) return Outcome{false, false};
+      if (!tighten(tolerance)) return Outcome{false, true};
+      return step(tolerance);  // towards other targets there is more to go
     }
     memory_.clear();  // once more along the plain direction before giving up
     return step(tolerance);
@@ -235,25 +238,39 @@ Result<GraphSolver::Outcome> GraphSolver::step(double tolerance) {
   memory_.remember(step_, change_);
 
   // Eq. 12: change of the energy, gradient and step are all small.
-  const double f = total();
-  const bool small = before - f < tolerance * (1.0 + f) && gradient_gone(tolerance) &&
+  const bool small = before - total() < tolerance * (1.0 + measured()) && gradient_gone(tolerance) &&
                      largest(step_) < std::sqrt(tolerance) * (1.0 + largest(step_));
   return Outcome{true, small && !tighten(tolerance)};
 }
 
 bool GraphSolver::gradient_gone(double tolerance) const {
-  return 2.0 * largest(gradient_) < std::cbrt(tolerance) * (1.0 + total());
+  return 2.0 * largest(gradient_) < std::cbrt(tolerance) * (1.0 + measured());
+}
+
+double GraphSolver::measured() const {
+  // Where exact targets contradict each other the stiffened constraints outweigh all else, and nothing moves them.
+  return options_.exact ? total() - energy_.weights().constraint * energy_.terms().constraint : total();
+}
+
+double GraphSolver::closable_gap() {
+  // One step of the metric towards the targets alone: what the graph cannot follow, as where targets contradict each
+  // other, is at right angles to all its motions and does not count.
+  GraphConstraints& constraints = energy_.constraints();
+  change_ = energy_.weights().constraint * (constraints.gradient() + shift_pull_);
+  metric_factor_.solve(change_.data(), 3);
+  return (constraints.residuals(change_) + displacement_ + shift_).colwise().norm().maxCoeff();
 }
 
 bool GraphSolver::tighten(double tolerance) {
   // Method of multipliers: what is missing from a target is added to it. True while that helps.
   if (!options_.exact || displacement_.cols() == 0) return false;
-  const double violation = (energy_.constraints().residuals(x_) + shift_).colwise().norm().maxCoeff();
-  const bool met = violation <= std::min(tolerance, kExactReach) * extent_;
-  const bool stuck = last_violation_ > 0.0 && violation > 0.5 * last_violation_;
+  const double gap = closable_gap();
+  const bool met = gap <= std::min(tolerance, kExactReach) * extent_;
+  const bool stuck = last_gap_ > 0.0 && gap > 0.5 * last_gap_;
   if (met || stuck) return false;
-  last_violation_ = violation;
+  last_gap_ = gap;
   shift_ = -energy_.constraints().residuals(x_);
+  shift_pull_ = -energy_.constraints().gradient();
   energy_.constraints().set_targets(displacement_ + shift_);
   evaluate();
   update_gradient();

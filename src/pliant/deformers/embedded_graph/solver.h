@@ -74,6 +74,8 @@ class GraphSolver {
   Status find_direction();
   /// Eq. 9 and the barrier: what is minimised.
   double total() const { return energy_.total() + options_.weights.rotation * barrier_; }
+  /// What eq. 12 measures changes of energy and gradient by.
+  double measured() const;
   /// Half its slope along direction_.
   double slope() const { return dense::dot(gradient_.data(), direction_.data(), x_.size()); }
   /// The second test of eq. 12, the barrier's part included.
@@ -81,6 +83,9 @@ class GraphSolver {
   void evaluate();
   void update_gradient();
   barrier::Fall search_line();
+  /// How far constrained points could still move towards the caller's targets, at most; scaled.
+  double closable_gap();
+  /// Exact targets: whether there is another problem to solve before they are met.
   bool tighten(double tolerance);
 
   SolverOptions options_;
@@ -89,7 +94,8 @@ class GraphSolver {
   Points constrained_;   ///< scaled rest positions
   Points displacement_;  ///< wanted, from rest
   Points shift_;         ///< of the targets, accumulated: multipliers of the exact constraints
-  double last_violation_ = 0.0;
+  Vector shift_pull_;    ///< C' shift
+  double last_gap_ = 0.0;
 
   Vector x_, gradient_, direction_, previous_, step_, change_;
   BlockMatrix constant_, newton_;
