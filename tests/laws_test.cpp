@@ -209,6 +209,36 @@ TEST_CASE("law 6: a reused factorisation gives what a fresh one gives") {
   }
 }
 
+TEST_CASE("law 6: reset and restore under the same constraints factorise nothing, and lose nothing") {
+  const Scene s;
+  for (const auto& methods : {test::methods(), test::exact_methods()}) {
+    for (const auto& method : methods) {
+      CAPTURE(method.name);
+      const auto deformer = method.make(test::shape_of(s.mesh));
+      REQUIRE(deformer->set_fixed(s.fixed).ok());
+      const auto handle = deformer->add_handle(s.moved);
+      REQUIRE(handle.ok());
+      const auto turned = [&](double degrees) {
+        REQUIRE(deformer->move_handle(*handle, test::turn(degrees, {0, 1, 0}, {0, 0, 1})).ok());
+        for (int i = 0; i < 2; ++i) REQUIRE(deformer->step().ok());
+        return deformer->positions();
+      };
+      const Points first = turned(20);
+      const State state = deformer->save();
+      const Counters before = deformer->counters();
+      turned(25);
+      const int of_steps = deformer->counters().factorizations - before.factorizations;
+      deformer->reset();
+      CHECK(turned(20) == first);
+      REQUIRE(deformer->restore(state).ok());
+      CHECK(distance(deformer->positions(), first) < 1e-13 * s.diagonal);
+      turned(25);
+      CHECK(deformer->counters().factorizations == before.factorizations + 3 * of_steps);
+      CHECK(deformer->counters().analyses == 1);
+    }
+  }
+}
+
 TEST_CASE("law 8: every platform computes the same, to 1e-9") {
   const Scene s;
   for (const auto& method : test::methods()) {

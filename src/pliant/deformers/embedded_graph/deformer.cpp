@@ -31,6 +31,10 @@ struct EmbeddedGraph::Impl {
 
   embedded::GraphStart start{solver};
   bool refined = false;
+  bool solver_knows_graph = false;  ///< it was set up over the present nodes
+
+  /// The pose is another: the solver goes on from there with what it has factorised, if nothing else changes.
+  void take_pose(const std::vector<Index>& fixed_points);
 
   embedded::Weights weights() const {
     return {options.rotation_weight, options.regularization_weight, options.constraint_weight};
@@ -73,6 +77,14 @@ std::vector<bool> frozen_nodes(const DeformationGraph& graph, const std::vector<
 }
 
 }  // namespace
+
+void EmbeddedGraph::Impl::take_pose(const std::vector<Index>& fixed_points) {
+  const std::vector<bool> frozen = frozen_nodes(graph, fixed_points);
+  for (Index j = 0; j < graph.size(); ++j) {
+    if (frozen[j]) pose.col(j).setZero();
+  }
+  if (solver_knows_graph) solver.set_pose(pose);
+}
 
 embedded::Terms EmbeddedGraph::Impl::terms_of(const Shape& shape, const Constraints& constraints) const {
   const std::vector<Index> moved = constraints.moved_points();
@@ -148,6 +160,7 @@ Status EmbeddedGraph::set_up() {
   Status status = impl.solver.set_up(graph, frozen, rest, influences,
                                      {impl.weights(), options.solver, options.exact_handles}, pose);
   if (!status.ok()) return status;
+  impl.solver_knows_graph = true;
   impl.start.set_up(graph, influences, handles());
   impl.pose = std::move(pose);
   return {};
@@ -172,7 +185,7 @@ Result<StepReport> EmbeddedGraph::iterate(double tolerance) {
 
 void EmbeddedGraph::do_reset() {
   impl_->pose.setZero();
-  pattern_changed();
+  impl_->take_pose(fixed_points());
 }
 
 Energy EmbeddedGraph::energy() const {
@@ -226,6 +239,7 @@ Result<Index> EmbeddedGraph::refine(Index max_nodes) {
   DeformationGraph refined = build_graph(shape(), std::move(nodes), impl_->options);
   impl_->pose = embedded::inherited_pose(shape(), impl_->graph, impl_->pose, refined);
   impl_->graph = std::move(refined);
+  impl_->solver_knows_graph = false;
   pattern_changed();
   return static_cast<Index>(fresh.cols());
 }
@@ -301,6 +315,8 @@ Status EmbeddedGraph::do_restore(const State& state) {
   const Points positions = Eigen::Map<const Points>(nodes->data.data(), 3, static_cast<Index>(m));
   if (positions.cols() != impl_->graph.nodes.cols() || positions != impl_->graph.nodes) {
     impl_->graph = build_graph(shape(), positions, impl_->options);
+    impl_->solver_knows_graph = false;
+    pattern_changed();
   }
   impl_->pose.setZero(12, impl_->graph.size());
   for (Index j = 0; j < impl_->graph.size(); ++j) {
@@ -311,7 +327,7 @@ Status EmbeddedGraph::do_restore(const State& state) {
       impl_->pose(4 * a + 3, j) = translations->data[3 * j + a] / impl_->graph.length_unit;
     }
   }
-  pattern_changed();
+  impl_->take_pose(fixed_points());
   return {};
 }
 

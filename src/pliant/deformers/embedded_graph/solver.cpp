@@ -47,6 +47,14 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
   extent_ = graph.size() > 0 ? (g.rowwise().maxCoeff() - g.rowwise().minCoeff()).norm() : 0.0;
 
   x_.resize(3 * energy_.rows());
+  for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
+  memory_.reset(x_.size());
+  set_pose(pose);
+  if (energy_.free_nodes() == 0) return {};
+  return factorize_metric(graph);
+}
+
+void GraphSolver::set_pose(const Pose& pose) {
   for (Index j = 0; j < energy_.free_nodes(); ++j) {
     for (int a = 0; a < 3; ++a) {
       for (int c = 0; c < 4; ++c) energy_.entry(x_, a, j)[c] = pose(4 * a + c, energy_.node_of_free()[j]);
@@ -59,10 +67,7 @@ Status GraphSolver::set_up(const DeformationGraph& graph, const std::vector<bool
       energy_.set_displacement_gradient(x_, j, closest_rotation(r) - Eigen::Matrix3d::Identity());
     }
   }
-  for (Vector* v : {&gradient_, &direction_, &previous_, &step_, &change_}) v->setZero(x_.size());
-  memory_.reset(x_.size());
-  if (energy_.free_nodes() == 0) return {};
-  return factorize_metric(graph);
+  memory_.clear();
 }
 
 double GraphSolver::damping() const { return options_.exact ? kDamping + kExactDamping : kDamping; }

@@ -33,6 +33,9 @@ class GraphSolver {
   Status set_up(const DeformationGraph& graph, const std::vector<bool>& frozen, Points constrained,
                 const Influences& influences, const SolverOptions& options, const Pose& pose);
 
+  /// Another pose of all nodes under the same constraints; `set_targets` has to follow.
+  void set_pose(const Pose& pose);
+
   /// New targets (3 x c, scaled).
   void set_targets(const Points& targets);
   /// From the target of a constrained point to where it stands, scaled; after set_targets or a start.
