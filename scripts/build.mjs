@@ -19,8 +19,8 @@ export async function build() {
   await step("package", {
     inputs: packageInputs,
     outputs: [
-      "pliant.js", "inline.js", "pliant.global.js", "worker.js", "io.js", "three.js", "cli.js", "pliant.wasm",
-      "pliant-io.wasm", "types/index.d.ts",
+      "pliant.js", "inline.js", "pliant.global.js", "worker.js", "io.js", "picture.js", "three.js", "cli.js",
+      "pliant.wasm", "pliant-io.wasm", "types/index.d.ts",
     ].map((name) => `dist/${name}`),
     action: async () => (await import("../bindings/js/build.mjs")).buildPackage(),
   });

@@ -5,6 +5,8 @@ import type { Core } from "./boundary/core.js";
 import { readCallback, readSignal } from "./boundary/task.js";
 import { Deformer } from "./deform/deformer.js";
 import { type DeformerOptions, methodInfos, type MethodName } from "./methods/index.js";
+import type { PictureInput } from "./picture/image.js";
+import { Picture } from "./picture/picture.js";
 import { measure, type MeasureOptions, type Quality } from "./shape/quality.js";
 import { Edit } from "./edit/living.js";
 import type { EditOptions, EditResult, EditScript } from "./edit/types.js";
@@ -27,6 +29,15 @@ export class Pliant {
   /** Checks a shape and takes it in. Errors: invalid-shape, too-large. */
   shape(input: ShapeInput): Shape {
     return new Shape(this.#core, input);
+  }
+
+  /**
+   * Traces the visible part of a picture and takes it in as a shape in the plane. Errors: invalid-shape,
+   * invalid-option, too-large.
+   */
+  async picture(input: PictureInput): Promise<Picture> {
+    const { meshOf } = await import("./picture/mesh.js");
+    return new Picture(this.#core, meshOf(input));
   }
 
   /** Builds a deformer over a shape. Errors: invalid-option, too-large. */

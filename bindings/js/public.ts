@@ -11,6 +11,8 @@ export type { Init } from "./init.js";
 export type {
   DeformerOptions, LiveOptions, MaterialField, MethodInfo, MethodName, OptionInfo,
 } from "./methods/index.js";
+export type { Color, Image, PictureInput } from "./picture/image.js";
+export { Picture } from "./picture/picture.js";
 export { Pliant } from "./pliant.js";
 export type { MeasureOptions, Quality } from "./shape/quality.js";
 export { Edit } from "./edit/living.js";

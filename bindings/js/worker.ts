@@ -9,11 +9,15 @@ import { WorkerPliant } from "./worker/objects.js";
 import type { Reference } from "./worker/protocol.js";
 import { nodePort, webPort, type WorkerPort } from "./worker/ports.js";
 
-export { WorkerDeformer, WorkerEdit, WorkerHandle, WorkerPliant, WorkerShape, WorkerSketch } from "./worker/objects.js";
+export {
+  WorkerDeformer, WorkerEdit, WorkerHandle, WorkerPicture, WorkerPliant, WorkerShape, WorkerSketch,
+} from "./worker/objects.js";
 export type { FileSource } from "./io/files.js";
-export type { FileFormat } from "./io/format.js";
+export type { FileFormat, WrittenFormat } from "./io/format.js";
 export { refined } from "./io/refined.js";
-export type { Mesh, ReadOptions, ReadProgress, ShapeFile, WritableShape } from "./io/shape_file.js";
+export type {
+  Frame, Mesh, PictureOptions, ReadOptions, ReadProgress, ShapeFile, WritableShape,
+} from "./io/shape_file.js";
 export type * from "./public.js";
 export { PliantError };
 

@@ -4,6 +4,7 @@ import type { FloatArray } from "../boundary/check.js";
 import type { Core } from "../boundary/core.js";
 import type { State } from "../boundary/state.js";
 import type { Refinement } from "../deform/sketch.js";
+import type { Pin } from "../picture/order.js";
 import { insideOf, type Shape } from "../shape/shape.js";
 import { framesOf } from "./keyframes.js";
 import { Edit } from "./living.js";
@@ -19,6 +20,8 @@ export interface FinishedEdit {
   state: State;
   /** What refinement added to the shape. */
   refinement: Refinement | undefined;
+  /** How far in front each vertex lies, where handles say so. */
+  depths: Float64Array | undefined;
   /** Carries points, in coordinates of the shape at rest, and turns their normals through all steps; in place. */
   carry(points: Float64Array, normals?: Float64Array): void;
 }
@@ -42,13 +45,22 @@ export async function* runFrames(
       const positions = edit.positions(new Float64Array(shape.dimension * edit.vertices));
       yield {
         time, positions, steps: report.steps.map((step, i) => since(before[i], step)), quality: report.quality,
-        state: edit.state(), refinement: edit.refinement(), carry: (points, normals) => edit.carry(points, normals),
+        state: edit.state(), refinement: edit.refinement(), depths: await depthsOf(shape, edit.pins()),
+        carry: (points, normals) => edit.carry(points, normals),
       };
       [frame, before] = [frame + 1, report.steps];
     }
   } finally {
     edit.dispose();
   }
+}
+
+/** Of every vertex of a shape in the plane; undefined without pins. */
+async function depthsOf(shape: Shape, pins: readonly Pin[]): Promise<Float64Array | undefined> {
+  if (pins.length === 0) return undefined;
+  const { rest, triangles } = insideOf(shape);
+  const { spreadDepths } = await import("../picture/order.js");
+  return spreadDepths(rest, shape.dimension, triangles, pins);
 }
 
 /** A report of one frame: costs count from the one before on. */
@@ -74,10 +86,11 @@ export async function runScript(core: Core, shape: Shape, plan: ScriptPlan, opti
     reports.push({ time: edit.time, steps: edit.steps, quality: edit.quality });
     last = edit;
   }
-  const { state, refinement } = last!;
+  const { state, refinement, depths } = last!;
   return {
     positions: frames[frames.length - 1], report: reportOf(shape, reports, plan), state,
-    ...(refinement ? { refinement } : {}), ...(plan.frames === undefined ? {} : { frames }),
+    ...(refinement ? { refinement } : {}), ...(depths ? { depths } : {}),
+    ...(plan.frames === undefined ? {} : { frames }),
   };
 }
 

@@ -7,6 +7,7 @@ import type { HandleState, State } from "../boundary/state.js";
 import { eventLoopTurn, readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
 import { readNormals, readPoints } from "../deform/carried.js";
 import type { Refinement } from "../deform/sketch.js";
+import type { Pin } from "../picture/order.js";
 import { surfaceNormals } from "../shape/normals.js";
 import { measure } from "../shape/quality.js";
 import { extentOf, insideOf, Shape } from "../shape/shape.js";
@@ -219,6 +220,11 @@ export class Edit {
   #output(out: FloatArray | undefined, width: number): FloatArray {
     const length = width * this.vertices;
     return output(new Place("invalid-option", "out"), out, length, () => new Float32Array(length));
+  }
+
+  /** What lies how far in front, by the last step that says so. @internal */
+  pins(): Pin[] {
+    return this.#live.pins();
   }
 
   /**

@@ -14,6 +14,8 @@ export interface HandlePlan {
   name: string | undefined;
   select: Select;
   goal: Goal | undefined;
+  /** How far in front it lies, where the step says so. */
+  depth?: number;
 }
 
 export interface RegionPlan {

@@ -158,19 +158,27 @@ function readHandles(place: Place, value: unknown, extent: Extent): HandlePlan[]
   const names = new Set<string>();
   return Array.from(list(place, value, "handles"), (item, i) => {
     const here = place.item(i);
-    const handle = fields(here, item, ["name", "select", "move", "targets"]);
+    const handle = fields(here, item, ["name", "select", "move", "targets", "depth"]);
     const name = handle.name === undefined ? undefined : readName(here.at("name"), handle.name);
     if (name !== undefined && names.has(name)) {
       here.at("name").reject(`is "${name}", the name of an earlier handle; expected another`);
     }
     if (name !== undefined) names.add(name);
+    const depth = readDepth(here.at("depth"), handle.depth, extent);
     return {
       place: here,
       name,
       select: readSelection(here.at("select"), handle.select, extent),
       goal: readGoal(here, handle, extent),
+      ...depth,
     };
   });
+}
+
+function readDepth(place: Place, value: unknown, { dimension }: Extent): { depth?: number } {
+  if (value === undefined) return {};
+  if (dimension === 2) return { depth: finite(place, value) };
+  return place.reject("is given for a shape in space; expected it in the plane only");
 }
 
 function readName(place: Place, value: unknown): string {

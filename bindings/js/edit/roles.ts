@@ -4,7 +4,8 @@ import type { Place } from "../boundary/check.js";
 import type { Handle } from "../deform/handle.js";
 import { selectedIds } from "../shape/selection.js";
 import { applyTransform, centroidOf, readTransform } from "../shape/transform.js";
-import type { Goal, HandlePlan, PlacePlan, RegionPlan, SolverPlan } from "./plan.js";
+import type { Pin } from "../picture/order.js";
+import type { Goal, HandlePlan, PlacePlan, RegionPlan, SolverPlan, StepPlan } from "./plan.js";
 import type { Rest } from "./rest.js";
 import { same } from "./same.js";
 
@@ -54,6 +55,13 @@ function rolesOf(fixed: readonly RegionPlan[], handles: readonly HandlePlan[], r
 /** The vertices of each part of a step that places them. Errors: invalid-script. */
 export function checkedParts({ parts }: PlacePlan, rest: Rest): Int32Array[] {
   return checkedRoles({ fixed: [], handles: parts, drag: [] }, rest).handles;
+}
+
+/** What lies how far in front, where a step says so: its handles, and the fixed region at 0. */
+export function pinsOf(plan: StepPlan, rest: Rest): Pin[] {
+  if (plan.kind !== "solver" || plan.handles.every(({ depth }) => depth === undefined)) return [];
+  const { fixed, handles } = checkedRoles(plan, rest);
+  return [{ vertices: fixed }, ...handles.map((vertices, i) => ({ vertices, depth: plan.handles[i].depth }))];
 }
 
 function checkTargets(goal: Goal | undefined, { length }: Int32Array, dimension: number): void {

@@ -129,6 +129,10 @@ export abstract class Stage<P extends StepPlan = StepPlan> {
     return this.plan;
   }
 
+  get standsOver(): Rest {
+    return this.rest;
+  }
+
   /** Whether it stands for this step over this rest shape. */
   isAt(plan: StepPlan, rest: Rest): boolean {
     return plan === this.plan && rest === this.rest;

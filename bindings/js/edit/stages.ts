@@ -1,10 +1,12 @@
 // The stages of a living edit: which one stands for a step, and which shows the result.
 
 import type { Core } from "../boundary/core.js";
+import type { Pin } from "../picture/order.js";
 import type { Shape } from "../shape/shape.js";
 import type { PlacePlan, SketchPlan, SolverPlan, StepPlan } from "./plan.js";
 import { PlaceStage } from "./place_stage.js";
 import { Rest } from "./rest.js";
+import { pinsOf } from "./roles.js";
 import { SketchStage } from "./sketch_stage.js";
 import { SolverStage } from "./solver_stage.js";
 import { PutAway, Stage } from "./stage.js";
@@ -42,6 +44,13 @@ export class Stages {
 
   reports(): StepReport[] {
     return this.#shown.map((stage) => (stage instanceof PutAway ? stage.report : stage.report()));
+  }
+
+  /** Of the last one that says what lies in front; none: nothing does. */
+  pins(): Pin[] {
+    const pins = this.#shown.map((stage) =>
+      stage instanceof PutAway ? pinsOf(stage.plan, stage.rest) : pinsOf(stage.standsFor, stage.standsOver));
+    return pins.findLast((own) => own.length > 0) ?? [];
   }
 
   /** Carries points and their normals through all of them, in place. */

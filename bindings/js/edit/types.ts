@@ -102,7 +102,7 @@ export interface ScriptSketch {
 export interface ScriptPlace {
   method: "place";
   /** Each has a move or targets. */
-  parts: readonly ScriptHandle[];
+  parts: readonly Omit<ScriptHandle, "depth">[];
 }
 
 /** Where a handle goes; targets one a vertex, ascending vertex id. */
@@ -115,6 +115,12 @@ export interface ScriptGoal {
 export interface ScriptHandle extends ScriptGoal {
   name?: string;
   select: Selection;
+  /**
+   * In the plane: how far in front it lies, where the shape overlaps itself, larger over smaller; left out: 0, where
+   * the
+   * fixed region lies, too. It moves nothing. See `EditResult.depths`.
+   */
+  depth?: number;
 }
 
 export interface ScriptDrag {
@@ -230,6 +236,11 @@ export interface EditResult {
   state: State;
   /** Where steps have refined the shape: what they added to the input in all. */
   refinement?: Refinement;
+  /**
+   * Where handles have a depth: that of every vertex, spread from the last step that has any (see `spreadDepths` of
+   * pliant/picture).
+   */
+  depths?: Float64Array;
   /** With keyframes: the positions of every frame. */
   frames?: FloatArray[];
 }

@@ -9,6 +9,7 @@ import { Edit } from "../edit/living.js";
 import { makeInit } from "../init.js";
 import { Files } from "../io/files.js";
 import { IoModule } from "../io/module.js";
+import { Picture } from "../picture/picture.js";
 import { Pliant } from "../pliant.js";
 import { Shape } from "../shape/shape.js";
 import { patched, type Patch } from "./patch.js";
@@ -18,7 +19,7 @@ import { type ClassName, rowOf, type Travel } from "./surface.js";
 const unnamed = () => Promise.reject(new Error("none was named"));
 const init = makeInit(unnamed);
 
-const classes = { Pliant, Shape, Deformer, Handle, Sketch, Edit, Files } satisfies Record<ClassName, unknown>;
+const classes = { Pliant, Shape, Picture, Deformer, Handle, Sketch, Edit, Files } satisfies Record<ClassName, unknown>;
 const names = new Map<unknown, ClassName>(Object.entries(classes).map(([name, its]) => [its, name as ClassName]));
 
 type Callable = (...args: unknown[]) => unknown;

@@ -12,6 +12,8 @@ import { shared } from "../edit/same.js";
 import type { Files } from "../io/files.js";
 import type { ShapeFile, WritableShape } from "../io/shape_file.js";
 import type { DeformerOptions, MethodName } from "../methods/index.js";
+import type { Image } from "../picture/image.js";
+import type { Picture } from "../picture/picture.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
 import type { InitOptions } from "../boundary/wasm.js";
@@ -24,6 +26,7 @@ import { type Calls, type ClassName, type Constants, rowOf } from "./surface.js"
 
 /** What a page holds in place of a value of the package. */
 type OnPage<T> =
+  T extends Picture ? WorkerPicture :
   T extends Shape ? WorkerShape :
   T extends Deformer<infer M> ? WorkerDeformer<M> :
   T extends Handle ? WorkerHandle :
@@ -138,6 +141,43 @@ export class WorkerPliant extends remote("Pliant") {
 export interface WorkerShape extends Seen<Shape, "Shape"> {}
 export class WorkerShape extends remote("Shape") {}
 
+/** What of a picture is a copy each time. */
+type PictureArrays = Pick<Picture, "positions" | "triangles" | "texcoords" | "image">;
+
+/** See {@link Picture}. */
+export interface WorkerPicture extends Omit<Seen<Picture, "Picture">, keyof PictureArrays> {}
+export class WorkerPicture extends remote("Picture") {
+  readonly #mesh: PictureArrays;
+
+  /** @internal */
+  constructor(line: Line, { object, constants }: Reference) {
+    const { positions, triangles, texcoords, image, ...rest } = constants;
+    super(line, { object, constants: rest });
+    this.#mesh = { positions, triangles, texcoords, image } as PictureArrays;
+  }
+
+  /** See {@link Picture.positions}. */
+  get positions(): Float64Array {
+    return this.#mesh.positions.slice();
+  }
+
+  /** See {@link Picture.triangles}. */
+  get triangles(): Uint32Array {
+    return this.#mesh.triangles.slice();
+  }
+
+  /** See {@link Picture.texcoords}. */
+  get texcoords(): Float32Array {
+    return this.#mesh.texcoords.slice();
+  }
+
+  /** See {@link Picture.image}. */
+  get image(): Image {
+    const { width, height, data } = this.#mesh.image;
+    return { width, height, data: data.slice() };
+  }
+}
+
 /** See {@link Deformer}. */
 export interface WorkerDeformer<M extends MethodName = MethodName> extends Seen<Deformer<M>, "Deformer"> {}
 export class WorkerDeformer<M extends MethodName = MethodName> extends remote("Deformer") {
@@ -215,7 +255,8 @@ interface WorkerFiles extends Seen<Files, "Files"> {}
 class WorkerFiles extends remote("Files") {}
 
 const classes = {
-  Shape: WorkerShape, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch, Edit: WorkerEdit,
+  Shape: WorkerShape, Picture: WorkerPicture, Deformer: WorkerDeformer, Handle: WorkerHandle, Sketch: WorkerSketch,
+  Edit: WorkerEdit,
 } satisfies Partial<Record<ClassName, unknown>>;
 
 function made(name: keyof typeof classes, line: Line, reference: Reference, origin: Origin): Remote {

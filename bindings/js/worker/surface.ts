@@ -9,6 +9,7 @@ import type { Handle } from "../deform/handle.js";
 import type { Sketch } from "../deform/sketch.js";
 import type { Edit } from "../edit/living.js";
 import type { Files } from "../io/files.js";
+import type { Picture } from "../picture/picture.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
 
@@ -16,6 +17,7 @@ import type { Shape } from "../shape/shape.js";
 export interface Classes {
   Pliant: Pliant;
   Shape: Shape;
+  Picture: Picture;
   Deformer: Deformer;
   Handle: Handle;
   Sketch: Sketch;
@@ -70,12 +72,17 @@ export const surface = {
   Pliant: {
     constants: ["methods"],
     calls: {
-      shape: { gives: "Shape" }, deformer: { gives: "Deformer" }, sketch: { gives: "Sketch" }, open: { gives: "Edit" },
+      shape: { gives: "Shape" }, picture: { gives: "Picture" }, deformer: { gives: "Deformer" },
+      sketch: { gives: "Sketch" }, open: { gives: "Edit" },
       limbStroke: plain, measure: plain, rigidMotion: plain, edit: { options: 2 },
     },
   },
   Shape: {
     constants: ["report", "dimension", "diagonal"],
+    calls: { select: plain, patch: plain, looseParts: plain, volume: plain, dispose: ends },
+  },
+  Picture: {
+    constants: ["report", "dimension", "diagonal", "positions", "triangles", "texcoords", "image"],
     calls: { select: plain, patch: plain, looseParts: plain, volume: plain, dispose: ends },
   },
   Deformer: {

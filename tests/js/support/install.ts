@@ -22,6 +22,7 @@ export * as pliant from "pliant";
 export * as inline from "pliant/inline";
 export * as io from "pliant/io";
 export * as worker from "pliant/worker";
+export * as picture from "pliant/picture";
 export * as three from "pliant/three";
 `;
 

@@ -13,6 +13,7 @@ export interface Entries {
   io: typeof import("../../../bindings/js/io.js");
   worker: typeof import("../../../bindings/js/worker.js");
   three: typeof import("../../../bindings/js/three.js");
+  picture: typeof import("../../../bindings/js/picture.js");
 }
 
 export const entries = (await import(/* @vite-ignore */ pathToFileURL(join(consumer, "entries.mjs")).href)) as Entries;
