@@ -12,7 +12,7 @@ import type { EditProgress, EditReport } from "../edit/types.js";
 import { extentOf, type Shape } from "../shape/shape.js";
 import { carry, checkCarries, readCarry } from "./carry.js";
 import { Failure, onFile } from "./failure.js";
-import { formats } from "../io/format.js";
+import { writtenFormats } from "../io/format.js";
 import type { ShapeFile } from "../io/shape_file.js";
 import { parseJson } from "./json.js";
 import type { Outputs } from "./outputs.js";
@@ -24,15 +24,19 @@ import type { Invocation } from "./usage.js";
 export async function deform(
   pliant: Pliant, core: Core, invocation: Invocation, outputs: Outputs, signal: AbortSignal,
 ): Promise<void> {
-  const { operands: [shapePath], files, flags } = invocation;
+  const { operands: [shapePath], files, flags, values } = invocation;
   const big = readCarry(files);
   checkOutputs([files.out, files.report, files.state, big?.to]);
-  const format = formatOf(files.out!, formats);
-  const file = await readShape(shapePath);
-  const shape = await onFile(shapePath, () => pliant.shape({ positions: file.positions, triangles: file.triangles }));
+  const format = formatOf(files.out!, writtenFormats);
+  if (flags.fit && format !== "png" && format !== "svg") {
+    throw new Failure(`--fit is given, and ${files.out} is no picture; expected a .png or .svg`);
+  }
+  const file = await readShape(shapePath, values);
+  const { positions, triangles, dimension } = file;
+  const shape = await onFile(shapePath, () => pliant.shape({ positions, triangles, dimension }));
   const plan = await readPlan(files.script!, shape);
   if (big) checkCarries(files.script!, plan);
-  const frames = new Frames(file, files.out!, format, plan, outputs);
+  const frames = new Frames(file, files.out!, format, plan, outputs, flags.fit ? "fit" : undefined);
   const progress = new Progress(flags.quiet === true);
   try {
     const reports: NonNullable<EditReport["frames"]> = [];
@@ -96,6 +100,7 @@ class Frames {
     readonly format: string,
     readonly plan: ScriptPlan,
     readonly outputs: Outputs,
+    readonly frame: "fit" | undefined,
   ) {
     const numbered = /%0?\d*d/.test(out);
     this.#animated = plan.frames !== undefined && format === "glb" && !numbered;
@@ -104,12 +109,12 @@ class Frames {
     }
   }
 
-  async add({ positions, time, refinement }: FinishedEdit): Promise<void> {
+  async add({ positions, time, refinement, depths }: FinishedEdit): Promise<void> {
     if (this.#animated) this.#kept.push({ positions, time });
     else {
-      await this.outputs.write(
-        this.#path(), await this.#encoded(() => written(this.file, `shape.${this.format}`, positions, refinement)),
-      );
+      const result = { positions, refinement, depths, frame: this.frame };
+      const encode = () => written(this.file, `shape.${this.format}`, result);
+      await this.outputs.write(this.#path(), await this.#encoded(encode));
     }
     ++this.#count;
   }

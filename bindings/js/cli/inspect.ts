@@ -6,11 +6,11 @@ import { Failure, onFile } from "./failure.js";
 import { readShape } from "./shapes.js";
 import type { Invocation } from "./usage.js";
 
-export async function inspect(pliant: Pliant, { operands: [path], flags }: Invocation): Promise<string> {
-  const file = await readShape(path);
-  const { positions, triangles, faceOffsets, texcoords, colors } = file;
-  const shape = await onFile(path, () => pliant.shape({ positions, triangles }));
-  const bounds = boundsOf(positions);
+export async function inspect(pliant: Pliant, { operands: [path], flags, values }: Invocation): Promise<string> {
+  const file = await readShape(path, values);
+  const { positions, triangles, dimension, faceOffsets, texcoords, colors } = file;
+  const shape = await onFile(path, () => pliant.shape({ positions, triangles, dimension }));
+  const bounds = boundsOf(positions, dimension);
   const found = {
     format: file.format, ...shape.report, faces: faceOffsets.length - 1,
     textureCoordinates: texcoords.length > 0, colors: colors.length > 0, diagonal: shape.diagonal, ...bounds,
@@ -18,12 +18,12 @@ export async function inspect(pliant: Pliant, { operands: [path], flags }: Invoc
   return flags.json ? JSON.stringify(found, null, 2) : table(found);
 }
 
-function boundsOf(positions: Float64Array): { min: number[]; max: number[] } {
-  const min = [Infinity, Infinity, Infinity];
-  const max = [-Infinity, -Infinity, -Infinity];
+function boundsOf(positions: Float64Array, dimension: number): { min: number[]; max: number[] } {
+  const min = Array.from({ length: dimension }, () => Infinity);
+  const max = Array.from({ length: dimension }, () => -Infinity);
   positions.forEach((x, i) => {
-    min[i % 3] = Math.min(min[i % 3], x);
-    max[i % 3] = Math.max(max[i % 3], x);
+    min[i % dimension] = Math.min(min[i % dimension], x);
+    max[i % dimension] = Math.max(max[i % dimension], x);
   });
   return { min, max };
 }
@@ -32,10 +32,14 @@ export async function compare(
   pliant: Pliant, { operands: [restPath, deformedPath], flags }: Invocation,
 ): Promise<string> {
   const [rest, deformed] = [await readShape(restPath), await readShape(deformedPath)];
-  const [from, to] = [rest.positions.length / 3, deformed.positions.length / 3];
+  const [from, to] = [rest, deformed].map((file) => file.positions.length / file.dimension);
   if (from !== to) throw new Failure(`${deformedPath}: has ${to} vertices; expected ${from}, as ${restPath}`);
-  const { positions, triangles } = rest;
-  const shape = await onFile(restPath, () => pliant.shape({ positions, triangles }));
+  if (rest.dimension !== deformed.dimension) {
+    const [found, expected] = [deformed.dimension, rest.dimension];
+    throw new Failure(`${deformedPath}: has ${found} coordinates a vertex; expected ${expected}, as ${restPath}`);
+  }
+  const { positions, triangles, dimension } = rest;
+  const shape = await onFile(restPath, () => pliant.shape({ positions, triangles, dimension }));
   const quality = await onFile(deformedPath, () => pliant.measure(shape, deformed.positions));
   return flags.json ? JSON.stringify(quality, null, 2) : table(flat(quality));
 }

@@ -1,12 +1,15 @@
 // Reading and writing shape files: one meaning in pages, workers and the command.
 
-import { choice, coordinates, fields, integer, largest, list, Place, toSpace } from "../boundary/check.js";
+import { choice, coordinates, fields, integer, largest, list, Place, toSpace, vector } from "../boundary/check.js";
 import { PliantError } from "../boundary/errors.js";
 import { readCallback, readSignal, throwIfAborted } from "../boundary/task.js";
-import { formatOf, formats, textFormats } from "./format.js";
+import { browserCodec, type PictureCodec } from "../picture/codec.js";
+import { formatOf, formats, textFormats, writtenFormats } from "./format.js";
 import type { IoModule } from "./module.js";
 import { pauses } from "./pause.js";
-import type { Mesh, ReadOptions, RewriteOptions, ShapeFile, WritableShape } from "./shape_file.js";
+import type {
+  Frame, Mesh, PictureOptions, ReadOptions, RewriteOptions, ShapeFile, WritableShape,
+} from "./shape_file.js";
 import { type Move, readText, rewriteText, rewritten, writeText } from "./text.js";
 
 /** A file: its bytes, or a Blob, as a file of the visitor is one. */
@@ -18,21 +21,27 @@ export type FileStream = ReadableStream<Uint8Array> | AsyncIterable<Uint8Array> 
 /** Readers and writers over one module. */
 export class Files {
   /** @internal */
-  constructor(readonly io: IoModule) {}
+  constructor(readonly io: IoModule, readonly codec: PictureCodec = browserCodec) {}
 
   /**
    * Reads a shape. The ending of `name` tells the format; messages begin with it.
-   * Errors: parse-error (with the line or byte, and the reason), too-large, invalid-option, aborted.
+   * Errors: parse-error (with the line or byte, and the reason), too-large, invalid-option, aborted; of pictures also
+   * invalid-shape, where nothing is to be seen.
    */
   async read(source: FileSource, name: string, options: ReadOptions = {}): Promise<ShapeFile> {
     const place = new Place("invalid-option", "options");
-    const given = fields(place, options, ["signal", "onProgress"]);
+    const given = fields(place, options, ["signal", "onProgress", "picture"]);
     const signal = readSignal(place.at("signal"), given.signal);
     const onProgress = readCallback<ReadOptions["onProgress"]>(place.at("onProgress"), given.onProgress);
     const format = formatOf(new Place("invalid-option", "name"), name, formats);
     throwIfAborted(signal);
     return named(name, async () => {
       const bytes = await bytesOf(source);
+      if (format === "png") {
+        const { readPng } = await import("./png.js");
+        const file = await readPng(this.codec, bytes, given.picture as PictureOptions);
+        return { format, ...file, source: new Blob([bytes]) };
+      }
       const pause = pauses({ signal, onProgress });
       const read =
         format === "glb" ? (await import("./glb.js")).readGlb(bytes) : readText(this.io, format, bytes, pause);
@@ -43,17 +52,21 @@ export class Files {
   /**
    * Writes a shape; the ending of `name` tells the format. A file that was read and goes back to its own format keeps
    * all but its coordinates (and normals, which they leave behind); in another format it keeps what that has room for.
-   * Errors: invalid-shape, invalid-option, too-large.
+   * A .png or .svg shows a shape in the plane with its `texture`. Errors: invalid-shape, invalid-option, too-large.
    */
   async write(shape: WritableShape, name: string): Promise<Uint8Array<ArrayBuffer>> {
-    const format = formatOf(new Place("invalid-option", "name"), name, formats);
+    const format = formatOf(new Place("invalid-option", "name"), name, writtenFormats);
     const mesh = readMesh(shape);
+    if (format === "png" || format === "svg") return this.#draw(shape, mesh, format);
     if (shape.source && shape.format === format) {
       const bytes = await bytesOf(shape.source);
       if (format === "glb") return (await import("./glb.js")).rewriteGlb(bytes, mesh.positions);
       return rewriteText(this.io, format, bytes, mesh.positions);
     }
-    if (format === "glb") return (await import("./glb.js")).writeGlb(mesh, shape.texture);
+    if (format === "glb") {
+      const { writeGlb } = await import("./glb.js");
+      return writeGlb(await inLayers(shape, mesh), shape.texture, shape.dimension === 2);
+    }
     return writeText(this.io, format, mesh);
   }
 
@@ -79,6 +92,16 @@ export class Files {
     } catch (error) {
       throw namedError(name, error);
     }
+  }
+
+  /** Errors: invalid-shape. */
+  async #draw(shape: WritableShape, mesh: Mesh, format: "png" | "svg"): Promise<Uint8Array<ArrayBuffer>> {
+    const place = new Place("invalid-shape", "dimension");
+    if (shape.dimension !== 2) place.fail(shape.dimension ?? 3, `2: a .${format} shows a shape in the plane`);
+    const { writePng, writeSvg } = await import("./png.js");
+    const frame = readFrame(new Place("invalid-shape", "frame"), shape.frame);
+    const shown = { mesh, texture: shape.texture, depths: depthsOf(shape, mesh), frame };
+    return format === "png" ? writePng(this.codec, shown) : writeSvg(this.codec, shown);
   }
 }
 
@@ -134,7 +157,7 @@ async function bytesOf(source: unknown): Promise<Uint8Array<ArrayBuffer>> {
 
 const keys = [
   "positions", "triangles", "dimension", "faceVertices", "faceOffsets", "texcoords", "colors", "texture", "format",
-  "source",
+  "source", "depths", "frame",
 ];
 
 /** A checked shape with all that a mesh has; without polygons the triangles are the faces. */
@@ -142,7 +165,9 @@ function readMesh(value: unknown): Mesh {
   const place = new Place("invalid-shape", "shape");
   const shape = fields(place, value, keys) as unknown as WritableShape;
   if (shape.format !== undefined) choice(place.at("format"), shape.format, formats);
-  if (shape.source !== undefined && !(shape.source instanceof Blob)) place.at("source").fail(shape.source, "a Blob");
+  for (const key of ["source", "texture"] as const) {
+    if (shape[key] !== undefined && !(shape[key] instanceof Blob)) place.at(key).fail(shape[key], "a Blob");
+  }
   const dimension = shape.dimension === undefined ? 3 : integer(place.at("dimension"), shape.dimension, 2, 3);
   const positions = Float64Array.from(
     toSpace(coordinates(place.at("positions"), shape.positions, dimension), dimension),
@@ -161,6 +186,24 @@ function readMesh(value: unknown): Mesh {
     texcoords: Float64Array.from(sized(place.at("texcoords"), shape.texcoords, 2 * faceVertices.length)),
     colors: Uint8Array.from(sized(place.at("colors"), shape.colors, positions.length)),
   };
+}
+
+/** No viewer knows of depths: the order of triangles has to do. */
+async function inLayers(shape: WritableShape, mesh: Mesh): Promise<Mesh> {
+  const depths = depthsOf(shape, mesh);
+  return depths ? (await import("./png.js")).layered(mesh, depths) : mesh;
+}
+
+function depthsOf({ depths }: WritableShape, { positions }: Mesh): Float64Array | undefined {
+  return depths && Float64Array.from(sized(new Place("invalid-shape", "depths"), depths, positions.length / 3));
+}
+
+function readFrame(place: Place, value: unknown): Frame | "fit" | undefined {
+  if (value === undefined || value === "fit") return value;
+  const { width, height, origin } = fields(place, value, ["width", "height", "origin"]);
+  const side = (key: string, given: unknown) => integer(place.at(key), given, 1, 16384, "pixels");
+  const [x, y] = vector(place.at("origin"), origin, 2);
+  return { width: side("width", width), height: side("height", height), origin: [x, y] };
 }
 
 function numbers(place: Place, value: unknown): ArrayLike<number> {

@@ -2,8 +2,10 @@
 // their transforms: results go back into the coordinates of each mesh. Normals follow, tangents (which
 // viewers compute when they are missing) are dropped, all else in the file stays.
 
-import { type Accessor, Document, Logger, type mat4, type Node, Primitive, WebIO } from "@gltf-transform/core";
-import { ALL_EXTENSIONS } from "@gltf-transform/extensions";
+import {
+  type Accessor, Document, Logger, type mat4, type Node, Primitive, TextureInfo, WebIO,
+} from "@gltf-transform/core";
+import { ALL_EXTENSIONS, KHRMaterialsUnlit } from "@gltf-transform/extensions";
 import { PliantError } from "../boundary/errors.js";
 import { NormalGroups } from "../shape/normals.js";
 import { linearColors, srgbColor } from "./colors.js";
@@ -285,12 +287,15 @@ function perVertex(count: number, value: (i: number) => ArrayLike<number>): Floa
   return values;
 }
 
-/**
- * A mesh from another kind of file: vertices are repeated where texture coordinates differ. `image`: the picture on it.
- */
-export function glbOf(
-  mesh: Mesh, image?: { bytes: Uint8Array<ArrayBuffer>; type: string },
-): { glb: Glb; expand(positions: Float64Array): Float64Array } {
+/** The picture on a mesh. `flat`: in the plane, seen as it is, and transparent where it is. */
+interface Skin {
+  bytes: Uint8Array<ArrayBuffer>;
+  type: string;
+  flat: boolean;
+}
+
+/** A mesh from another kind of file: vertices are repeated where texture coordinates differ. */
+export function glbOf(mesh: Mesh, image?: Skin): { glb: Glb; expand(positions: Float64Array): Float64Array } {
   const document = new Document();
   document.createBuffer();
   const { source, indices, uv } = splitSeams(mesh);
@@ -322,12 +327,15 @@ export function glbOf(
 }
 
 /** Seen from both sides, and not the metal that a file without a material is made of. */
-function matte(document: Document, image: { bytes: Uint8Array<ArrayBuffer>; type: string } | undefined) {
+function matte(document: Document, image: Skin | undefined) {
   const material = document.createMaterial().setDoubleSided(true).setMetallicFactor(0).setRoughnessFactor(0.65);
-  if (image) {
-    material.setBaseColorTexture(document.createTexture("picture").setImage(image.bytes).setMimeType(image.type));
-  }
-  return material;
+  if (!image) return material;
+  material.setBaseColorTexture(document.createTexture("picture").setImage(image.bytes).setMimeType(image.type));
+  if (!image.flat) return material;
+  const { CLAMP_TO_EDGE } = TextureInfo.WrapMode;
+  material.getBaseColorTextureInfo()!.setWrapS(CLAMP_TO_EDGE).setWrapT(CLAMP_TO_EDGE);
+  const unlit = document.createExtension(KHRMaterialsUnlit).createUnlit();
+  return material.setAlphaMode("BLEND").setExtension("KHR_materials_unlit", unlit);
 }
 
 /** One vertex for each vertex and texture coordinate that go together. `source`: the mesh's vertex of each. */
@@ -363,11 +371,14 @@ export async function rewriteGlb(bytes: Uint8Array, positions: Float64Array): Pr
   return (await Glb.read(bytes)).write(positions);
 }
 
-/** A mesh as a file of its own. */
-export async function writeGlb(mesh: Mesh, texture: Blob | undefined): Promise<Uint8Array<ArrayBuffer>> {
-  const image = texture && { bytes: new Uint8Array(await texture.arrayBuffer()), type: texture.type };
-  const { glb, expand } = glbOf(mesh, image);
+/** A mesh as a file of its own; `flat`: a picture in the plane. */
+export async function writeGlb(mesh: Mesh, texture: Blob | undefined, flat: boolean): Promise<Uint8Array<ArrayBuffer>> {
+  const { glb, expand } = glbOf(mesh, await skinOf(texture, flat));
   return glb.write(expand(mesh.positions));
+}
+
+export async function skinOf(texture: Blob | undefined, flat: boolean): Promise<Skin | undefined> {
+  return texture && { bytes: new Uint8Array(await texture.arrayBuffer()), type: texture.type, flat };
 }
 
 /**
@@ -375,11 +386,10 @@ export async function writeGlb(mesh: Mesh, texture: Blob | undefined): Promise<U
  * it was.
  */
 export async function animateGlb(
-  mesh: Mesh, bytes: Uint8Array | undefined, frames: Float64Array[], times: number[],
+  mesh: Mesh, bytes: Uint8Array | undefined, skin: Skin | undefined, frames: Float64Array[], times: number[],
 ): Promise<Uint8Array<ArrayBuffer>> {
-  const { glb, expand } = bytes
-    ? { glb: await Glb.read(bytes), expand: (positions: Float64Array) => positions }
-    : glbOf(mesh);
+  const asRead = (positions: Float64Array) => positions;
+  const { glb, expand } = bytes ? { glb: await Glb.read(bytes), expand: asRead } : glbOf(mesh, skin);
   glb.animate(frames.map(expand), times);
   return glb.write(expand(mesh.positions));
 }
