@@ -27,11 +27,14 @@ const shapesPlugin = {
       : undefined,
 };
 
-/** The package's worker entry with everything inside: in a page of one file there is nothing beside it to load. */
+/**
+ * The package, as it is built. Its worker entry has everything inside: in a page of one file there is nothing beside it
+ * to load.
+ */
 const packagePlugin = (dist) => ({
   name: "pliant-package",
   enforce: "pre",
-  resolveId: (id) => (id === "pliant/worker" ? join(dist, "worker.js") : undefined),
+  resolveId: (id) => (id === "pliant/worker" || id === "pliant/picture" ? join(dist, `${id.slice(7)}.js`) : undefined),
   transform(code, id) {
     if (id !== join(dist, "worker.js")) return undefined;
     const beside = /new URL\((["'`])\.\/(?:pliant\.wasm|pliant-io\.wasm|worker-host\.js)\1,\s*import\.meta\.url\)/g;

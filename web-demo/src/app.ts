@@ -18,6 +18,7 @@ import { Readout } from "./ui/readout.ts";
 import { StrokeOverlay } from "./ui/stroke_overlay.ts";
 import { Toolbar } from "./ui/toolbar.ts";
 import { GraphView, graphIn } from "./view/graph_view.ts";
+import { Layers } from "./view/layers.ts";
 import { pick, type Hit } from "./view/picking.ts";
 import { ShapeView } from "./view/shape_view.ts";
 import { Viewport } from "./view/viewport.ts";
@@ -34,6 +35,7 @@ export class App {
   readonly view = new ShapeView();
   readonly session: Session;
   private readonly graph = new GraphView();
+  private readonly layers = new Layers();
   private readonly stage: Stage;
   private readonly overlay: HandleOverlay;
   private readonly strokes: StrokeOverlay;
@@ -158,7 +160,9 @@ export class App {
     try {
       if (await this.session.open(await load())) {
         this.chrome.say("");
-        if (this.present.doc.opened.start?.method) this.toolbar.chooseById("pose"); // it shows a method, not strokes
+        const { dimension, start } = this.present.doc.opened;
+        if (dimension === 2 && start?.handles.length === 0) this.toolbar.chooseById("handle"); // pins come first
+        else if (start?.method) this.toolbar.chooseById("pose"); // it shows a method, not strokes
       }
     } catch (error) {
       this.problem(error as Error);
@@ -195,6 +199,7 @@ export class App {
     if (present.doc.sketch) this.toolbar.chooseById("sketch"); // by undo, perhaps
     this.toolbar.refresh();
     this.takeShape();
+    this.layer();
     this.paint();
     this.overlay.refresh();
     this.panel.refresh();
@@ -222,6 +227,11 @@ export class App {
     this.opened = doc.opened;
     this.box = boundingBox(doc.opened.positions);
     this.viewport.frame(this.box, doc.opened);
+  }
+
+  /** What of a picture lies over what. */
+  private layer(): void {
+    if (this.shown?.dimension === 2 && this.shown.picture) this.view.layer(this.layers.of(this.present.doc));
   }
 
   private paint(): void {

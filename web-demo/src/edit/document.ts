@@ -13,6 +13,8 @@ export interface HandleDoc {
   /** Centroid of the vertices at rest. */
   readonly center: Vec3;
   readonly motion: Motion;
+  /** How far in front it lies where a picture overlaps itself; absent: 0, unless others say otherwise. */
+  readonly depth?: number;
   /** Held where it was when it was taken hold of, 3 numbers a vertex, instead of moved: not shown as a handle. */
   readonly held?: Float32Array;
 }
@@ -101,6 +103,14 @@ export function backAtRest(doc: Doc): Doc {
 export function withMotion(doc: Doc, id: number, motion: Motion): Doc {
   const possible = doc.shape.dimension === 2 ? inPlane(motion) : motion;
   return { ...doc, handles: doc.handles.map((h) => (h.id === id ? { ...h, motion: possible } : h)) };
+}
+
+/** With a handle in front of all others, or behind them. */
+export function withDepth(doc: Doc, id: number, side: "front" | "back"): Doc {
+  const others = doc.handles.filter((h) => h.id !== id).map(({ depth = 0 }) => depth);
+  const depth = side === "front" ? Math.max(0, ...others) + 1 : Math.min(0, ...others) - 1;
+  const handles = doc.handles.map((h) => (h.id === id ? { ...h, depth } : h));
+  return { ...doc, handles, grab: { ...doc.grab, start: new Map(doc.grab.start) } }; // written down anew
 }
 
 function vertexIds(shape: ShapeData, inside: (v: number) => boolean): Uint32Array {
@@ -202,6 +212,7 @@ function regionsOf(doc: Doc): Remembered {
   const handles = doc.handles.map((h) => ({
     name: h.name,
     select: { vertices: [...h.vertices] },
+    ...(h.depth === undefined ? {} : { depth: h.depth }),
     ...(h.held
       ? { targets: triples(h.held, dimension) }
       : { move: asTransform(doc.grab.start.get(h.id) ?? atRest, h.center, dimension) }),

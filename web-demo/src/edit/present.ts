@@ -7,7 +7,8 @@ import { vertexCount, type ShapeData } from "../shapes/shape.ts";
 import { EditClient, type Picture, type ShapeFacts } from "../solver/edit_client.ts";
 import type { EditMoment, EditRun, SketchView, Spot, State } from "../solver/pliant.ts";
 import {
-  editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withMotion, withRun,
+  editScript, finishedDocument, finishedStep, liveDocument, onTop, withChanges, withConstraints, withDepth,
+  withMotion, withRun,
   type Doc, type HandleDoc,
 } from "./document.ts";
 import { motionOf, type Motion } from "./motion.ts";
@@ -198,6 +199,12 @@ export class Present {
 
   moveHandle(id: number, motion: Motion): void {
     this.doc = withMotion(this.doc, id, motion);
+    this.client.wake();
+    this.events.change();
+  }
+
+  layer(id: number, side: "front" | "back"): void {
+    this.doc = withDepth(this.doc, id, side);
     this.client.wake();
     this.events.change();
   }

@@ -226,6 +226,14 @@ export class Session {
     void this.exclusive(() => this.commit(this.present.doc, `nudge ${id}`));
   }
 
+  /** Puts a handle of a picture in front of the others, or behind them. */
+  layer(id: number, side: "front" | "back"): void {
+    const { present } = this;
+    if (present.doc.shape.dimension !== 2 || !present.handle(id)) return;
+    present.layer(id, side);
+    void this.exclusive(() => this.commit(present.doc));
+  }
+
   // -- Time ---------------------------------------------------------------------------------------
 
   get canUndo(): boolean {

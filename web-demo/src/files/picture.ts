@@ -1,44 +1,34 @@
-// A picture as a shape in the plane: a lattice over it, without the cells that show nothing.
-import type { LoadedShape } from "../shapes/shape.ts";
-
-const cells = 96; // along the longer side
+// A picture as a shape in the plane: the library traces and triangulates it, in its worker.
+import type { PictureInput } from "pliant/worker";
+import { connect } from "../solver/pliant.ts";
+import type { LoadedShape, PictureOn, StartPose } from "../shapes/shape.ts";
 
 /** Errors: not a picture; nothing to see. */
 export async function readPicture(file: Blob): Promise<LoadedShape> {
-  const image = await createImageBitmap(file).catch(() => {
+  const image = await createImageBitmap(file, { colorSpaceConversion: "none" }).catch(() => {
     throw new Error("it is not a picture");
   });
-  const step = Math.max(image.width, image.height) / cells;
-  const [columns, rows] = [Math.max(1, Math.round(image.width / step)), Math.max(1, Math.round(image.height / step))];
-  const visible = coverage(image, columns, rows);
-  const ids = new Map<number, number>();
-  const [positions, uv, triangles]: [number[], number[], number[]] = [[], [], []];
-  const vertex = (column: number, row: number): number => {
-    const key = row * (columns + 1) + column;
-    if (!ids.has(key)) {
-      ids.set(key, ids.size);
-      const [u, v] = [column / columns, 1 - row / rows];
-      positions.push(
-        ((u - 0.5) * 2 * image.width) / (cells * step), ((v - 0.5) * 2 * image.height) / (cells * step), 0,
-      );
-      uv.push(u, v);
-    }
-    return ids.get(key)!;
-  };
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      if (!visible(column, row)) continue;
-      const [a, b] = [vertex(column, row), vertex(column + 1, row)];
-      const [c, d] = [vertex(column, row + 1), vertex(column + 1, row + 1)];
-      triangles.push(a, c, b, b, c, d);
-    }
-  }
-  if (ids.size === 0) throw new Error("the picture is transparent throughout");
-  const canvas = asCanvas(image, image.width, image.height);
-  return {
-    positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles), dimension: 2,
-    picture: { image: canvas, uv: Float32Array.from(uv) },
-  };
+  const context = asCanvas(image, image.width, image.height).getContext("2d")!;
+  const { width, height, data } = context.getImageData(0, 0, image.width, image.height);
+  const shape = await pictureShape({ width, height, data, background: "auto" });
+  // Pins are put where they are wanted: nothing is held from the beginning.
+  return { ...shape, start: pinned([]) };
+}
+
+/** What puppets are bent with: pins exact, and areas kept. */
+export const pinned = (handles: StartPose["handles"]): StartPose =>
+  ({ fixed: () => false, handles, method: "arap" });
+
+/** The visible part of a picture, in pixels from its bottom left corner. */
+export async function pictureShape(input: PictureInput): Promise<LoadedShape> {
+  const picture = await (await connect()).picture(input);
+  const { positions: flat, triangles, texcoords: uv, image: { width, height, data } } = picture;
+  await picture.dispose();
+  const inSpace = (i: number) => (i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!);
+  const exact = Float64Array.from({ length: (flat.length / 2) * 3 }, (_, i) => inSpace(i));
+  const image = new ImageData(new Uint8ClampedArray(data), width, height);
+  const positions = Float32Array.from(exact);
+  return { positions, exact, triangles, dimension: 2, viewFrom: [0, 0, 1], picture: { image, uv } };
 }
 
 /** A canvas: what the renderer and the exports can both turn the right way up. */
@@ -50,14 +40,13 @@ export function asCanvas(image: ImageBitmap, width: number, height: number): HTM
   return canvas;
 }
 
-/** Whether any of 4 x 4 samples of a cell is more than faintly opaque. */
-function coverage(image: ImageBitmap, columns: number, rows: number): (column: number, row: number) => boolean {
-  const width = 4 * columns;
-  const { data } = asCanvas(image, width, 4 * rows).getContext("2d")!.getImageData(0, 0, width, 4 * rows);
-  return (column, row) => {
-    for (let y = 4 * row; y < 4 * row + 4; y++) {
-      for (let x = 4 * column; x < 4 * column + 4; x++) if (data[4 * (y * width + x) + 3]! > 24) return true;
-    }
-    return false;
-  };
+/** A picture as a file. */
+export async function asPng({ image }: PictureOn): Promise<Blob> {
+  let canvas = image as HTMLCanvasElement;
+  if (image instanceof ImageData) {
+    canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    canvas.getContext("2d")!.putImageData(image, 0, 0);
+  }
+  return new Promise((resolve) => canvas.toBlob((blob) => resolve(blob!), "image/png"));
 }

@@ -4,6 +4,7 @@ import { bumpyPlane } from "./bumpy_plane.ts";
 import { decodeMesh } from "./decode.ts";
 import { cloth, tube } from "./sheets.ts";
 import { gingerbread } from "./gingerbread.ts";
+import { puppet } from "./puppet.ts";
 import type { ShapeData } from "./shape.ts";
 import { subdivide } from "./subdivide.ts";
 import { tree } from "./tree.ts";
@@ -59,7 +60,8 @@ export const catalog: CatalogEntry[] = [
   { id: "cloth", name: "Cloth", make: async () => cloth() },
   { id: "tube", name: "Tube", make: async () => tube() },
   { id: "rubber", name: "Rubber", make: rubber },
-  { id: "gingerbread", name: "Gingerbread", make: async () => gingerbread() },
+  { id: "gingerbread", name: "Gingerbread", make: gingerbread },
+  { id: "puppet", name: "Scout", make: puppet },
 ];
 
 export const entryOf = (id: string): CatalogEntry => catalog.find((entry) => entry.id === id)!;

@@ -1,6 +1,6 @@
-// A gingerbread figure in the plane: an even triangulation of a smooth outline, iced by a canvas.
+// A gingerbread figure in the plane: a smooth outline, iced by a canvas.
+import { pictureShape } from "../files/picture.ts";
 import type { ShapeData } from "./shape.ts";
-import { triangulate } from "./triangulate.ts";
 
 const smoothMin = (a: number, b: number, blend: number): number => {
   const h = Math.max(blend - Math.abs(a - b), 0) / blend;
@@ -40,7 +40,7 @@ function paintDough(context: CanvasRenderingContext2D, width: number, height: nu
       [198, 126, 66].forEach((c, k) => {
         image.data[at + k] = light * c * (1 - icing) + icing * [255, 250, 242][k]!;
       });
-      image.data[at + 3] = 255;
+      image.data[at + 3] = 255 * Math.min(1, Math.max(0, 0.5 - (d * width) / (frame.max[0] - frame.min[0])));
     }
   }
   context.putImageData(image, 0, 0);
@@ -70,7 +70,7 @@ function paintFace(context: CanvasRenderingContext2D): void {
   }
 }
 
-function icing(): HTMLCanvasElement {
+function icing(): ImageData {
   const canvas = document.createElement("canvas");
   canvas.width = 640;
   canvas.height = 768;
@@ -79,27 +79,18 @@ function icing(): HTMLCanvasElement {
   const scale = canvas.width / (frame.max[0] - frame.min[0]);
   context.setTransform(scale, 0, 0, -scale, -frame.min[0] * scale, frame.max[1] * scale);
   paintFace(context);
-  return canvas;
+  return context.getImageData(0, 0, canvas.width, canvas.height);
 }
 
-export function gingerbread(): ShapeData {
-  const { points, triangles } = triangulate(outline, frame, 0.028);
-  const count = points.length / 2;
-  const positions = new Float32Array(3 * count);
-  const uv = new Float32Array(2 * count);
-  for (let v = 0; v < count; v++) {
-    const [x, y] = [points[2 * v]!, points[2 * v + 1]!];
-    positions.set([x, y, 0], 3 * v);
-    uv.set(
-      [(x - frame.min[0]) / (frame.max[0] - frame.min[0]), (y - frame.min[1]) / (frame.max[1] - frame.min[1])], 2 * v,
-    );
-  }
+export async function gingerbread(): Promise<ShapeData> {
+  const { width, height, data } = icing();
+  const scale = width / (frame.max[0] - frame.min[0]);
+  const [right, up] = [(x: number) => (x - frame.min[0]) * scale, (y: number) => (y - frame.min[1]) * scale];
   return {
-    id: "gingerbread", name: "Gingerbread (2D)", positions, triangles, dimension: 2,
-    picture: { image: icing(), uv }, viewFrom: [0, 0, 1],
+    id: "gingerbread", name: "Gingerbread (2D)", ...(await pictureShape({ width, height, data })),
     start: {
-      fixed: ([x, y]) => y < -0.92 && x < 0,
-      handles: [{ name: "hand", center: [0.78, 0.31, 0], radius: 0.12 }],
+      fixed: ([x, y]) => y < up(-0.92) && x < right(0),
+      handles: [{ name: "hand", center: [right(0.78), up(0.31), 0], radius: 0.12 * scale }],
     },
   };
 }

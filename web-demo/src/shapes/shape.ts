@@ -17,7 +17,7 @@ export interface ShapeData {
   /** 3 n sRGB bytes. */
   colors?: Uint8Array;
   /** A picture that lies on the shape: 2 n texture coordinates, v up. */
-  picture?: { image: TexImageSource; uv: Float32Array };
+  picture?: PictureOn;
   /** The file it came from, with what refinement made of it: exports keep everything in it but the coordinates. */
   file?: WritableShape;
   /** Small parts that nothing joins to the rest, and what each goes along with; there once it has been shown. */
@@ -32,6 +32,11 @@ export interface ShapeData {
   mirrorAt?: number;
   /** Vertices with no triangle are drawn as dots of this share of the diagonal. */
   dotSize?: number;
+}
+
+export interface PictureOn {
+  image: TexImageSource & { width: number; height: number };
+  uv: Float32Array;
 }
 
 export interface StartPose {

@@ -13,7 +13,11 @@ export class AddHandle implements Tool {
   readonly id = "handle";
   readonly label = "Handle";
   readonly icon = "handle" as const;
-  readonly hint = "Press on the shape to place a handle; keep dragging to move it.";
+  get hint(): string {
+    const { dimension } = this.stage.present.doc.shape;
+    if (dimension === 2) return "Click on the picture to pin it; drag a pin to bend it, its ring to turn it.";
+    return "Press on the shape to place a handle; keep dragging to move it.";
+  }
   readonly size = { min: 0, max: 0.12, start: 0.45 };
   private drag: HandleDrag | undefined;
   private press: Press | undefined;
@@ -54,8 +58,11 @@ export class AddHandle implements Tool {
   }
 
   /** What the pointer has done meanwhile is made up for. */
-  private async place({ vertex, point }: Hit, from: Pointer, press: Press): Promise<void> {
-    const id = await this.stage.session.addHandle({ vertex, center: point.toArray() }, this.stage.radius());
+  private async place({ vertex, point, reach }: Hit, from: Pointer, press: Press): Promise<void> {
+    // A pin in a picture can always be turned: it holds more than a point.
+    const least = this.stage.present.doc.shape.dimension === 2 ? 1.01 * reach : 0;
+    const radius = Math.max(least, this.stage.radius());
+    const id = await this.stage.session.addHandle({ vertex, center: point.toArray() }, radius);
     if (id === undefined) return;
     const drag = new HandleDrag(this.stage, id, "shift", from);
     drag.move(press.to);

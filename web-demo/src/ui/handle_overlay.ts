@@ -15,6 +15,8 @@ export class HandleOverlay {
   private readonly ring: SVGElement;
   private readonly grip: SVGElement;
   private readonly bubble = make("div", { class: "bubble", id: "drag-me" }, make("span", {}, "Drag me"));
+  /** Beside the selected pin of a picture: to the front, to the back. */
+  private readonly sides = make("div", { class: "sides", role: "group", "aria-label": "Order of the pin" });
   /** The hint points at the first handle until something has been moved. */
   private greeting = true;
   private hidden = false;
@@ -24,9 +26,21 @@ export class HandleOverlay {
     this.grip = makeSvg("circle", { class: "grip", cx: "104", cy: "58", r: "7" });
     this.ring = makeSvg("svg", { class: "ring", viewBox: "0 0 116 116", "aria-hidden": "true" },
       makeSvg("circle", { class: "track", cx: "58", cy: "58", r: "46" }), catcher, this.grip);
-    this.root.append(this.ring, this.bubble);
+    this.sides.append(...(["front", "back"] as const).map((side) => this.sideButton(side)));
+    this.root.append(this.ring, this.sides, this.bubble);
     this.root.addEventListener("contextmenu", (event) => event.preventDefault()); // a long press
     this.follow(catcher, () => this.stage.present.selected, () => "turn");
+  }
+
+  private sideButton(side: "front" | "back"): HTMLButtonElement {
+    const [text, key] = side === "front" ? ["To front", "PageUp"] : ["To back", "PageDown"];
+    const title = `${text} of what it overlaps (${key})`;
+    const button = make("button", { id: `to-${side}`, class: "small", title }, text);
+    button.addEventListener("click", () => {
+      const { selected } = this.stage.present;
+      if (selected !== undefined) this.stage.session.layer(selected, side);
+    });
+    return button;
   }
 
   /** No handles while strokes are drawn. */
@@ -77,13 +91,20 @@ export class HandleOverlay {
     const handle = present.selected === undefined || this.hidden ? undefined : present.handle(present.selected);
     const shown = handle !== undefined && handle.vertices.length > 1;
     this.ring.toggleAttribute("hidden", !shown);
+    this.sides.hidden = !handle || !this.inPlane;
     if (!handle) return;
     const at = viewport.toScreen(placeOf(handle));
     this.ring.style.transform = `translate(${at.x}px, ${at.y}px)`;
+    this.sides.style.transform = `translate(calc(${at.x}px - 50%), ${at.y + 66}px)`;
     const { forward } = viewport.axes();
     const roll = handle.motion.rotation.reduce((sum, r, k) => sum + r * forward.getComponent(k), -0.7);
     this.grip.setAttribute("cx", String(58 + 46 * Math.cos(roll)));
     this.grip.setAttribute("cy", String(58 + 46 * Math.sin(roll)));
+  }
+
+  private get inPlane(): boolean {
+    const { shape } = this.stage.present.doc;
+    return shape.dimension === 2 && shape.triangles.length > 0;
   }
 
   private placeBubble(): void {
@@ -134,6 +155,8 @@ export class HandleOverlay {
     const handle = this.stage.present.handle(id);
     if (!handle || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Delete" || event.key === "Backspace") this.remove(id);
+    else if (this.inPlane && event.key === "PageUp") this.stage.session.layer(id, "front");
+    else if (this.inPlane && event.key === "PageDown") this.stage.session.layer(id, "back");
     else if (event.key === "Escape") this.stage.viewport.canvas.focus();
     else {
       const motion = this.moved(handle, event);

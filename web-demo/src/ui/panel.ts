@@ -47,7 +47,7 @@ export class Panel {
     });
     this.check("graph", actions.watchGraph);
     this.check("wire", actions.wireframe);
-    for (const kind of ["obj", "glb", "script"] as ExportKind[]) {
+    for (const kind of ["png", "svg", "obj", "glb", "script"] as ExportKind[]) {
       byId(`export-${kind}`).addEventListener("click", () => download(session.present, kind).catch(actions.problem));
     }
     const toggle = byId("panel-toggle");
@@ -82,9 +82,9 @@ export class Panel {
     for (const radio of this.shapes.querySelectorAll("input")) {
       radio.checked = known && radio.value === doc.shape.id;
     }
-    byId("shapes").querySelector(".file span")!.textContent = known
-      ? "Open a file…"
-      : `${doc.shape.name} · open another…`;
+    const invitation = known ? "Open a file…" : `${doc.shape.name} · open another…`;
+    byId("shapes").querySelector(".file span")!.textContent = invitation;
+    for (const kind of ["png", "svg"]) byId(`export-${kind}`).hidden = doc.shape.dimension !== 2 || !doc.shape.picture;
     this.choice.value = doc.method;
     if (doc.method !== this.shownMethod) this.makeOptions(doc.method);
     byId("graph").parentElement!.hidden = !methodOf(doc.method).draws.includes("graph");

@@ -10,6 +10,8 @@ export interface Hit {
   normal: Vector3;
   /** The nearest vertex. */
   vertex: number;
+  /** Distance of the farthest corner of the triangle; 0: there is none. */
+  reach: number;
 }
 
 const raycaster = new Raycaster();
@@ -25,17 +27,21 @@ export function pick(
   const distance = viewport.camera.position.distanceTo(viewport.controls.target);
   raycaster.params.Points.threshold = 0.008 * distance;
   view.bound();
-  const first = raycaster.intersectObject(view.object, false)[0];
+  const hits = raycaster.intersectObject(view.object, false);
+  // In the plane all are as far away: the one that is drawn last is seen.
+  const later = (a: Intersection, b: Intersection) => ((b.faceIndex ?? 0) > (a.faceIndex ?? 0) ? b : a);
+  const first = present.doc.shape.dimension === 2 ? hits.reduce(later, hits[0]!) : hits[0];
   if (!first) return undefined;
   const toViewer = raycaster.ray.direction.clone().negate();
-  if (!(view.object instanceof Mesh)) return { point: first.point.clone(), normal: toViewer, vertex: first.index! };
+  const point = first.point.clone();
+  if (!(view.object instanceof Mesh)) return { point, normal: toViewer, vertex: first.index!, reach: 0 };
   const normal = first.face!.normal.clone();
   if (normal.dot(toViewer) < 0) normal.negate();
-  return { point: first.point.clone(), normal, vertex: nearestCorner(first, present.positions) };
+  return { point, normal, ...cornersNear(first, present.positions) };
 }
 
-function nearestCorner({ face, point }: Intersection, positions: Float32Array): number {
+function cornersNear({ face, point }: Intersection, positions: Float32Array): Pick<Hit, "vertex" | "reach"> {
   const corners = [face!.a, face!.b, face!.c];
-  const distances = corners.map((v) => new Vector3().fromArray(positions, 3 * v).distanceToSquared(point));
-  return corners[distances.indexOf(Math.min(...distances))]!;
+  const distances = corners.map((v) => new Vector3().fromArray(positions, 3 * v).distanceTo(point));
+  return { vertex: corners[distances.indexOf(Math.min(...distances))]!, reach: Math.max(...distances) };
 }

@@ -1,7 +1,7 @@
 // The deformed shape on the screen: surface, dots or picture, tinted where it is fixed or held.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshPhongMaterial,
-  Points, PointsMaterial, Sphere, SRGBColorSpace, Texture, Vector3,
+  BufferAttribute, BufferGeometry, CanvasTexture, DoubleSide, FrontSide, Group, Material, Mesh, MeshBasicMaterial,
+  MeshPhongMaterial, NoColorSpace, Points, PointsMaterial, Sphere, SRGBColorSpace, Texture, Vector3,
 } from "three";
 import type { Doc } from "../edit/document.ts";
 import { boundingBox, vertexCount, type ShapeData } from "../shapes/shape.ts";
@@ -29,6 +29,8 @@ export class ShapeView {
   private geometry = new BufferGeometry();
   /** What the colours show. */
   private painted: unknown[] = [];
+  /** What the index holds. */
+  private layered: Uint32Array | undefined;
   object: Mesh | Points | undefined;
 
   /** Takes a shape on; its geometry from before is freed. `solid`: only its outside is ever seen. */
@@ -48,19 +50,19 @@ export class ShapeView {
   }
 
   private surface(shape: ShapeData, solid: boolean): Mesh {
-    this.geometry.setIndex(new BufferAttribute(shape.triangles, 1));
+    this.layered = shape.triangles;
+    this.geometry.setIndex(new BufferAttribute(shape.triangles.slice(), 1));
     const side = solid ? FrontSide : DoubleSide;
-    const material = tinted(
-      new MeshPhongMaterial({ vertexColors: !shape.picture, specular: 0x1c1c1c, shininess: 24, side }),
-    );
+    if (shape.picture && shape.dimension === 2) return new Mesh(this.geometry, flat(shape.picture.image));
+    const vertexColors = !shape.picture;
+    const material = tinted(new MeshPhongMaterial({ vertexColors, specular: 0x1c1c1c, shininess: 24, side }));
     if (shape.picture) {
       material.map = pictureTexture(shape.picture.image);
       material.specular.set(0);
       material.alphaTest = 0.4;
     }
     const mesh = new Mesh(this.geometry, material);
-    mesh.castShadow = true;
-    mesh.receiveShadow = shape.dimension === 3;
+    mesh.castShadow = mesh.receiveShadow = true;
     return mesh;
   }
 
@@ -78,9 +80,18 @@ export class ShapeView {
     if (!this.object) return;
     this.group.remove(this.object);
     this.geometry.dispose();
-    const material = this.object.material as MeshPhongMaterial | PointsMaterial;
+    const material = this.object.material as MeshBasicMaterial | MeshPhongMaterial | PointsMaterial;
     material.map?.dispose();
     material.dispose();
+  }
+
+  /** Triangles in the order they are drawn in. */
+  layer(triangles: Uint32Array): void {
+    const index = this.geometry.index as BufferAttribute | null;
+    if (!index || this.layered === triangles) return;
+    this.layered = triangles;
+    (index.array as Uint32Array).set(triangles);
+    index.needsUpdate = true;
   }
 
   update(positions: Float32Array, normals: Float32Array): void {
@@ -138,13 +149,17 @@ export class ShapeView {
   }
 
   setWireframe(on: boolean): void {
-    if (this.object instanceof Mesh) (this.object.material as MeshPhongMaterial).wireframe = on;
+    if (this.object instanceof Mesh) (this.object.material as MeshBasicMaterial | MeshPhongMaterial).wireframe = on;
   }
 
   /** Lets what lies inside shine through. */
   setVeiled(on: boolean): void {
     const material = this.object?.material as Material | undefined;
     if (!material || this.object instanceof Points) return;
+    if (material instanceof MeshBasicMaterial) {
+      material.opacity = on ? 0.45 : 1;
+      return;
+    }
     material.transparent = on;
     material.opacity = on ? 0.45 : 1;
     material.depthWrite = !on;
@@ -163,6 +178,32 @@ function tinted<T extends Material>(material: T): T {
         "#include <color_fragment>",
         "#include <color_fragment>\n  diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb, vTint.a);",
       );
+  };
+  return material;
+}
+
+/**
+ * A picture in the plane, as it is: neither lit nor taken to linear light, with colours times alpha, one triangle over
+ * the
+ * one before.
+ */
+function flat(image: TexImageSource): MeshBasicMaterial {
+  const map = pictureTexture(image);
+  map.colorSpace = NoColorSpace;
+  map.premultiplyAlpha = true;
+  const material = new MeshBasicMaterial({
+    map, transparent: true, premultipliedAlpha: true, side: DoubleSide, depthTest: false, depthWrite: false,
+  });
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace("void main() {", "attribute vec4 tint;\nvarying vec4 vTint;\nvoid main() {\n  vTint = tint;");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("void main() {", "varying vec4 vTint;\nvoid main() {")
+      .replace("#include <color_fragment>",
+        "diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb * diffuseColor.a, 0.6 * vTint.a);")
+      .replace("#include <opaque_fragment>", "gl_FragColor = diffuseColor * vec4(vec3(opacity), 1.0);")
+      .replace("#include <colorspace_fragment>", "")
+      .replace("#include <premultiplied_alpha_fragment>", "");
   };
   return material;
 }

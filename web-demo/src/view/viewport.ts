@@ -25,6 +25,8 @@ export class Viewport {
   private readonly listeners: (() => void)[] = [];
   private scheduled = false;
   private inset = 0;
+  private drawing = false;
+  private flat = false;
   private home = { position: new Vector3(), target: new Vector3() };
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -94,6 +96,9 @@ export class Viewport {
   /** Looks at a new shape from `from`; scales light and ground to it. */
   frame(box: Box, { viewFrom = defaultView, dimension, hangs = 0 }: ShapeData): void {
     const radius = Math.max(box.diagonal / 2, 1e-9);
+    this.flat = dimension === 2;
+    this.setButtons();
+    this.ground.visible = !this.flat;
     const center = new Vector3(...box.center).addScaledVector(new Vector3(0, -1, 0), hangs * box.diagonal);
     const tall = Math.max(0.86, (1.04 * (box.max[1] - box.min[1])) / Math.max(box.diagonal, 1e-9));
     const { clientWidth, clientHeight } = this.canvas;
@@ -152,10 +157,19 @@ export class Viewport {
 
   /** While strokes are drawn the right button and two fingers turn the camera, the middle button shifts it. */
   setDrawing(on: boolean): void {
-    this.controls.mouseButtons = {
-      LEFT: MOUSE.ROTATE, MIDDLE: on ? MOUSE.PAN : MOUSE.DOLLY, RIGHT: on ? MOUSE.ROTATE : MOUSE.PAN,
-    };
-    this.controls.touches = { ONE: TOUCH.ROTATE, TWO: on ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN };
+    this.drawing = on;
+    this.setButtons();
+  }
+
+  /** What lies in the plane is looked at from the front: dragging beside it shifts the picture. */
+  private setButtons(): void {
+    const { flat, drawing } = this;
+    const LEFT = flat ? MOUSE.PAN : MOUSE.ROTATE;
+    const turns = drawing && !flat;
+    const [MIDDLE, RIGHT] = [drawing ? MOUSE.PAN : MOUSE.DOLLY, turns ? MOUSE.ROTATE : MOUSE.PAN];
+    this.controls.mouseButtons = { LEFT, MIDDLE, RIGHT };
+    const [ONE, TWO] = [flat ? TOUCH.PAN : TOUCH.ROTATE, turns ? TOUCH.DOLLY_ROTATE : TOUCH.DOLLY_PAN];
+    this.controls.touches = { ONE, TWO };
   }
 
   /** The camera as the library knows it: the whole picture, of which the page shows a shifted part. */
@@ -214,6 +228,7 @@ export class Viewport {
 
   /** Turns the camera around its target, in radians; for keys. */
   orbit(yaw: number, pitch: number): void {
+    if (this.flat) return;
     const arm = this.camera.position.clone().sub(this.controls.target);
     arm.applyAxisAngle(new Vector3(0, 1, 0), yaw);
     const angle = arm.angleTo(new Vector3(0, 1, 0));
