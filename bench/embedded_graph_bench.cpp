@@ -13,7 +13,7 @@
 #include "bench.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
 #include "pliant/deformers/embedded_graph/graph.h"
-#include "pliant/deformers/embedded_graph/transfer.h"
+#include "pliant/solve/carry.h"
 #include "pliant/solve/run.h"
 #include "support/shapes.h"
 
@@ -258,17 +258,17 @@ void bench_carrying(const Reporter& reporter) {
   std::mt19937 random(5);
   std::vector<double> plain_maps(12 * 226);
   for (double& v : plain_maps) v = static_cast<double>(random()) / 4294967296.0;
-  embedded::PackedMaps maps(12, 226);
+  PackedMaps maps(12, 226);
   for (Index j = 0; j < 226; ++j) {
     const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> m(&plain_maps[12 * j]);
-    maps.col(j) = embedded::pack_map(m.leftCols<3>(), m.col(3));
+    maps.col(j) = pack_map(m.leftCols<3>(), m.col(3));
   }
   Points out(3, scene.shape().points().cols());
   std::vector<double> plain_out(out.size());
   std::vector<double> ours, plain;
   for (int i = 0; i < 41; ++i) {
     double start = now();
-    embedded::carry(maps, graph.influences, scene.shape().points(), Eigen::Vector3d::Zero(), out);
+    carry(maps, graph.influences, scene.shape().points(), Eigen::Vector3d::Zero(), out);
     ours.push_back(now() - start);
     start = now();
     plain_carry(plain_maps, graph.influences, scene.shape().points(), plain_out);

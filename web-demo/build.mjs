@@ -15,7 +15,7 @@ const root = join(here, "..");
  * Bytes. The plan was 350 kB gzipped with 100 kB of WASM; the modules alone take 285 kB of what is here, inlined, the
  * glTF library 42.
  */
-const budget = { raw: 1.45e6, gzip: 610e3 };
+const budget = { raw: 1.55e6, gzip: 690e3 };
 
 /** The module "#shapes": what build-shapes.mjs made. */
 const shapesPlugin = {

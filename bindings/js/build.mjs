@@ -25,9 +25,9 @@ const entries = {
 
 /** Bytes. `file`: with all it imports; `raw`: as it is; `gzip`: on the wire. */
 const budget = [
-  { file: "pliant.wasm", raw: 615e3, gzip: 256e3 },
-  { file: "pliant.js", gzip: 39.5e3 },
-  { file: "inline.js", gzip: 292e3 },
+  { file: "pliant.wasm", raw: 800e3, gzip: 323e3 },
+  { file: "pliant.js", gzip: 41e3 },
+  { file: "inline.js", gzip: 372e3 },
   { file: "pliant-io.wasm", raw: 152e3, gzip: 66e3 },
   { file: "io.js", gzip: 10e3 },
   { file: "picture.js", gzip: 6e3 },

@@ -76,7 +76,7 @@ const deformers: Row[] = [
   ["no method", () => pliant.deformer(shape, {} as never),
     "invalid-option", "options.method", "undefined", "embedded-graph"],
   ["an unknown method", build({ method: "magic" }), "invalid-option", "options.method", '"magic"'],
-  ...["volumetric-graph", "rigid-cells"].map((method): Row =>
+  ...["volumetric-graph"].map((method): Row =>
     [`${method}, which is not here yet`, build({ method }), "invalid-option", method, "not in this build yet"]),
   ["sketch as a solver", build({ method: "sketch" }), "invalid-option", "options.method", "pliant.sketch"],
   ["an option of another method", material({ energy: "spokes" }),

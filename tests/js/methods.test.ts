@@ -17,6 +17,7 @@ const read = (deformer: ReturnType<typeof build>) => deformer.options() as Recor
 /** Values of compound options, none of them the default. */
 const compound: Record<string, unknown[]> = {
   points: [[[0, 0, 0], [0.5, 0.5, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0]]],
+  stiffness: [[{ select: { vertices: [0, 1, 40] }, factor: 0.25 }, { select: { vertices: [7] }, factor: 8 }]],
   cuts: [[[{ vertices: [0, 1] }, { vertices: [40] }], [{ vertices: [2] }, { vertices: [50, 51, 52] }]]],
   field: [
     { axis: [0, 1, 0] }, { curvature: "max" }, { curvature: "min" }, { geodesic: [3, 4] },

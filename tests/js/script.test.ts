@@ -222,7 +222,10 @@ describe("a script is refused for", () => {
     ["a step that is none", script([5]), "steps[0]", "5"],
     ["no method", script([{}]), "steps[0].method", "undefined"],
     ["an unknown method", withStep({ method: "clay" }), "steps[0].method", '"clay"'],
-    ["a method that is not here yet", withStep({ method: "rigid-cells" }), "steps[0].method", "not in this build yet"],
+    [
+      "a method that is not here yet",
+      withStep({ method: "volumetric-graph" }), "steps[0].method", "not in this build yet",
+    ],
     ["an unknown key of a step", withStep({ pinned: [] }), "steps[0].pinned", "fixed"],
     ["an unknown option", withOptions({ nodeCoutn: 3 }), "steps[0].options.nodeCoutn", "nodeCount"],
     ["a bad option", withOptions({ nodeCount: 122 }), "steps[0].options.nodeCount", "122", "121"],

@@ -5,6 +5,7 @@
 #include "pliant/deformers/arap/deformer.h"
 #include "pliant/deformers/edge_material/deformer.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
+#include "pliant/deformers/rigid_cells/deformer.h"
 
 namespace pliant::test {
 namespace {
@@ -59,6 +60,21 @@ Method edge_material(const char* name, const EdgeMaterialOptions& options) {
   return method;
 }
 
+Method rigid_cells(const char* name, RigidCellsOptions options) {
+  options.resolution = 8;
+  Method method{name, [options](auto shape) -> std::unique_ptr<Deformer> {
+                  auto deformer = RigidCells::create(std::move(shape), options);
+                  REQUIRE(deformer.ok());
+                  return std::move(*deformer);
+                }};
+  std::vector<RigidCellsOptions> others(4, options);
+  others[1].transfer = CellTransfer::blend;
+  others[2].hold = CellHold::points;
+  others[3].stiffness = {{{1, 2, 3}, 4.0}};
+  method.live_options = setters<RigidCells>(others);
+  return method;
+}
+
 Method recorded(Method method, const Eigen::Vector3d& mean, const Eigen::Vector3d& vertex) {
   method.recorded = {mean, vertex};
   return method;
@@ -92,6 +108,14 @@ std::vector<Method> methods() {
                              {.lambda = 0.02, .field = {.kind = DirectionField::Kind::curvature_max}}),
                {-0.0806609261996718, 0.0257392411463397, 0.116561130227058},
                {-0.560329254375608, 0.259191211154912, 0.935393981232096}),
+      recorded(rigid_cells("rigid-cells", {}), {-0.146444038197735, 0.00892903587449061, 0.0643740861973311},
+               {-0.647356978981667, 0.176573836278537, 0.688516991711685}),
+      recorded(rigid_cells("rigid-cells, shell, blend", {.interior = false, .transfer = CellTransfer::blend}),
+               {-0.11045147070908, 0.0251639798676398, 0.04609186310352},
+               {-0.629836488720733, 0.225368960346473, 0.769789452130466}),
+      recorded(rigid_cells("rigid-cells, points", {.hold = CellHold::points}),
+               {-0.104964810508318, -0.0102599717323697, 0.051243804556837},
+               {-0.631092077651231, 0.199119120557384, 0.621420818321966}),
   };
 }
 

@@ -5,13 +5,14 @@ import { arap } from "./arap.js";
 import { edgeMaterial } from "./edge_material.js";
 import { embeddedGraph } from "./embedded_graph.js";
 import type { Drawn, LiveOf, Method, MethodInfo, OptionsOf } from "./method.js";
+import { rigidCells } from "./rigid_cells.js";
 
 export type { MaterialField } from "./edge_material.js";
 export { readSeed } from "./embedded_graph.js";
 export { type Drawn, type Method, type MethodInfo, type Options, readLive, readOptions } from "./method.js";
 export type { OptionInfo } from "./option.js";
 
-const declared = [embeddedGraph, edgeMaterial, arap] as const;
+const declared = [embeddedGraph, edgeMaterial, arap, rigidCells] as const;
 
 type Declared = (typeof declared)[number]["declared"];
 type Named<M> = Extract<Declared, { name: M }>;
@@ -42,7 +43,7 @@ export function methodsThat(can: (method: MethodInfo) => boolean): string {
 export const drawing = (what: Drawn) => ({ draws }: MethodInfo): boolean => draws.includes(what);
 
 /** Names of methods that are agreed on but not here. */
-const absent = ["volumetric-graph", "rigid-cells"];
+const absent = ["volumetric-graph"];
 
 export function readMethod(place: Place, name: unknown): Method {
   const method = methods.find((candidate) => candidate.name === name);

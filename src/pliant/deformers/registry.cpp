@@ -7,6 +7,7 @@
 #include "pliant/deformers/arap/deformer.h"
 #include "pliant/deformers/edge_material/deformer.h"
 #include "pliant/deformers/embedded_graph/deformer.h"
+#include "pliant/deformers/rigid_cells/deformer.h"
 
 namespace pliant {
 namespace {
@@ -24,6 +25,7 @@ constexpr RegisteredMethod kMethods[] = {
     {"embedded-graph", &build<EmbeddedGraph, EmbeddedGraphOptions>},
     {"edge-material", &build<EdgeMaterial, EdgeMaterialOptions>},
     {"arap", &build<Arap, ArapOptions>},
+    {"rigid-cells", &build<RigidCells, RigidCellsOptions>},
 };
 
 }  // namespace

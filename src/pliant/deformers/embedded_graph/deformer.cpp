@@ -13,13 +13,12 @@
 #include "pliant/deformers/embedded_graph/refine.h"
 #include "pliant/deformers/embedded_graph/solver.h"
 #include "pliant/deformers/embedded_graph/start.h"
-#include "pliant/deformers/embedded_graph/transfer.h"
+#include "pliant/solve/carry.h"
 
 namespace pliant {
 
 using embedded::GraphEnergy;
 using embedded::GraphSolver;
-using embedded::PackedMaps;
 using embedded::Pose;
 
 struct EmbeddedGraph::Impl {
@@ -113,7 +112,7 @@ PackedMaps EmbeddedGraph::Impl::position_maps() const {
   for (Index j = 0; j < graph.size(); ++j) {
     const Eigen::Matrix3d u = embedded::gradient_of(pose, j);
     const Eigen::Vector3d t = graph.length_unit * embedded::translation_of(pose, j);
-    maps.col(j) = embedded::pack_map(u, t - u * (graph.nodes.col(j) - graph.origin));
+    maps.col(j) = pack_map(u, t - u * (graph.nodes.col(j) - graph.origin));
   }
   return maps;
 }
@@ -123,7 +122,7 @@ PackedMaps EmbeddedGraph::Impl::normal_maps() const {
   PackedMaps maps(12, graph.size());
   for (Index j = 0; j < graph.size(); ++j) {
     const Eigen::Matrix3d r = Eigen::Matrix3d::Identity() + embedded::gradient_of(pose, j);
-    maps.col(j) = embedded::pack_map(embedded::cofactors(r) - Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+    maps.col(j) = pack_map(embedded::cofactors(r) - Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
   }
   return maps;
 }
@@ -206,13 +205,13 @@ Counters EmbeddedGraph::counters() const {
 
 Points EmbeddedGraph::point_positions() const {
   Points out;
-  embedded::carry(impl_->position_maps(), impl_->graph.influences, shape().points(), impl_->graph.origin, out);
+  carry(impl_->position_maps(), impl_->graph.influences, shape().points(), impl_->graph.origin, out);
   return out;
 }
 
 Points EmbeddedGraph::point_normals() const {
   Points out;
-  embedded::carry(impl_->normal_maps(), impl_->graph.influences, impl_->rest_normals, Eigen::Vector3d::Zero(), out);
+  carry(impl_->normal_maps(), impl_->graph.influences, impl_->rest_normals, Eigen::Vector3d::Zero(), out);
   for (Index i = 0; i < out.cols(); ++i) {
     const double length = out.col(i).norm();
     if (length > 0.0) out.col(i) /= length;
@@ -222,8 +221,7 @@ Points EmbeddedGraph::point_normals() const {
 
 Result<Points> EmbeddedGraph::transform_points(const Points& points) const {
   Points out;
-  embedded::carry(impl_->position_maps(), compute_influences(shape(), impl_->graph, points), points,
-                  impl_->graph.origin, out);
+  carry(impl_->position_maps(), compute_influences(shape(), impl_->graph, points), points, impl_->graph.origin, out);
   return out;
 }
 

@@ -5,8 +5,7 @@
 #include <span>
 #include <utility>
 
-#include <nanoflann.hpp>
-
+#include "pliant/geometry/nearest_points.h"
 #include "pliant/geometry/sampling.h"
 #include "pliant/geometry/simplify.h"
 #include "pliant/linalg/ordering.h"
@@ -18,30 +17,10 @@ constexpr int kDefaultNeighbours = 4;
 /// Weights below this are rounding of a zero; as zeros they make no edge.
 constexpr double kNoInfluence = 1e-12;
 
-struct PointCloud {
-  const Points& points;
-  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.cols()); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points(static_cast<Index>(axis), static_cast<Index>(i));
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3, Index>;
-
 /// The nodes nearest to a point, nearest first, with their squared distances.
 struct Nearest {
   std::vector<Index> nodes;
   std::vector<double> squared;
-
-  void find(const Tree& tree, const Eigen::Vector3d& p, std::size_t count) {
-    nodes.resize(count);
-    squared.resize(count);
-    tree.knnSearch(p.data(), count, nodes.data(), squared.data());
-  }
 
   /// Drops the nodes across each cut: those on the other side than the point, or, for a point on
   /// neither side, than the first node that is on one.
@@ -87,8 +66,7 @@ void write_weights(const Nearest& nearest, int k, Index* indices, double* weight
 /// point_sides: one list a cut over the points.
 Influences influences_of(const Points& nodes, const std::vector<CutSides>& node_sides, int k, const Points& points,
                          const std::vector<CutSides>& point_sides) {
-  const PointCloud cloud{nodes};
-  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
+  const NearestPoints tree(nodes);
   const std::size_t all = static_cast<std::size_t>(nodes.cols());
   const std::size_t wanted = std::min<std::size_t>(k + 1, all);
   Influences result;
@@ -101,7 +79,7 @@ Influences influences_of(const Points& nodes, const std::vector<CutSides>& node_
     for (std::size_t c = 0; c < sides.size(); ++c) sides[c] = point_sides[c][i];
     // Across a cut nodes drop out: ask for more until enough are left.
     for (std::size_t count = wanted;; count = std::min(all, 4 * count)) {
-      nearest.find(tree, points.col(i), count);
+      tree.find(points.col(i), static_cast<Index>(count), nearest.nodes, nearest.squared);
       nearest.respect(node_sides, sides);
       if (nearest.nodes.size() >= wanted || count == all) break;
     }
@@ -153,11 +131,10 @@ std::vector<CutSides> sides_by_nearest(const Shape& shape, const std::vector<Cut
                                        const Points& queries) {
   std::vector<CutSides> result(point_sides.size(), CutSides(queries.cols(), 0));
   if (point_sides.empty()) return result;
-  const PointCloud cloud{shape.points()};
-  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const NearestPoints tree(shape.points());
   Nearest nearest;
   for (Index j = 0; j < queries.cols(); ++j) {
-    nearest.find(tree, queries.col(j), 1);
+    tree.find(queries.col(j), 1, nearest.nodes, nearest.squared);
     for (std::size_t c = 0; c < result.size(); ++c) result[c][j] = point_sides[c][nearest.nodes[0]];
   }
   return result;

@@ -8,24 +8,16 @@
 #include "pliant/deformers/embedded_graph/options.h"
 #include "pliant/geometry/shape.h"
 #include "pliant/linalg/block_matrix.h"
+#include "pliant/solve/carry.h"
 
 namespace pliant {
-
-/// The k nodes that move each point, and by how much: row i of `indices` and `weights` is point i.
-struct Influences {
-  int k = 0;
-  std::vector<Index> indices;   ///< p x k, nearest node first
-  std::vector<double> weights;  ///< p x k, each row sums to one (eq. 4)
-
-  Index size() const { return k == 0 ? 0 : static_cast<Index>(indices.size()) / k; }
-};
 
 /// What a cut makes of a node or point: 0 free, 1 side a, 2 side b.
 using CutSides = std::vector<unsigned char>;
 
 struct DeformationGraph {
   Points nodes;                                      ///< g_j, 3 x m, input coordinates
-  Influences influences;                             ///< of the points of the shape
+  Influences influences;                             ///< of nodes on the points of the shape (eq. 4)
   std::vector<Edge> edges;                           ///< nodes that influence a common point, j < k, sorted
   std::vector<Index> elimination_order;              ///< of the nodes, for the solver's factorisations
   double length_unit = 1.0;                          ///< mean edge length: the energies are taken in this unit

@@ -5,8 +5,8 @@
 
 #include <Eigen/LU>
 
-#include "pliant/deformers/embedded_graph/transfer.h"
 #include "pliant/geometry/closest_rotation.h"
+#include "pliant/solve/carry.h"
 
 namespace pliant::embedded {
 namespace {

@@ -1,8 +1,8 @@
-#include "pliant/deformers/embedded_graph/transfer.h"
+#include "pliant/solve/carry.h"
 
 #include "pliant/linalg/dense_kernels.h"
 
-namespace pliant::embedded {
+namespace pliant {
 namespace {
 
 using dense::load2;
@@ -55,4 +55,4 @@ void carry(const PackedMaps& maps, const Influences& influences, const Points& p
   }
 }
 
-}  // namespace pliant::embedded
+}  // namespace pliant

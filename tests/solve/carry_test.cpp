@@ -1,4 +1,4 @@
-#include "pliant/deformers/embedded_graph/transfer.h"
+#include "pliant/solve/carry.h"
 
 #include <doctest/doctest.h>
 
@@ -16,18 +16,18 @@ TEST_CASE("carrying points is eq. 2, for the unrolled and the general number of 
       influences.indices.push_back(random.below(nodes));
       influences.weights.push_back(0.5 + 0.5 * random.number());
     }
-    embedded::PackedMaps maps(12, nodes);
+    PackedMaps maps(12, nodes);
     std::vector<Eigen::Matrix3d> a;
     std::vector<Eigen::Vector3d> b;
     for (Index j = 0; j < nodes; ++j) {
       a.push_back(random.vector(9).reshaped(3, 3));
       b.push_back(random.vector(3));
-      maps.col(j) = embedded::pack_map(a.back(), b.back());
+      maps.col(j) = pack_map(a.back(), b.back());
     }
     const Points p = random.vector(3 * points).reshaped(3, points);
     const Eigen::Vector3d origin(0.3, -2.0, 1.0);
     Points out;
-    embedded::carry(maps, influences, p, origin, out);
+    carry(maps, influences, p, origin, out);
     Points expected = p;
     for (Index i = 0; i < points; ++i) {
       for (int s = 0; s < k; ++s) {
@@ -43,6 +43,6 @@ TEST_CASE("maps of zero leave points where they are, bit for bit") {
   Influences influences{2, {0, 1, 1, 0}, {0.25, 0.75, 0.5, 0.5}};
   const Points p = 1e6 * test::Random(1).vector(6).reshaped(3, 2);
   Points out;
-  embedded::carry(embedded::PackedMaps::Zero(12, 2), influences, p, {1e6, 3.0, 0.1}, out);
+  carry(PackedMaps::Zero(12, 2), influences, p, {1e6, 3.0, 0.1}, out);
   CHECK(out == p);
 }
