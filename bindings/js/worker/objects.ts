@@ -12,7 +12,6 @@ import { shared } from "../edit/same.js";
 import type { Files } from "../io/files.js";
 import type { ShapeFile, WritableShape } from "../io/shape_file.js";
 import type { DeformerOptions, MethodName } from "../methods/index.js";
-import type { Image } from "../picture/image.js";
 import type { Picture } from "../picture/picture.js";
 import type { Pliant } from "../pliant.js";
 import type { Shape } from "../shape/shape.js";
@@ -141,42 +140,9 @@ export class WorkerPliant extends remote("Pliant") {
 export interface WorkerShape extends Seen<Shape, "Shape"> {}
 export class WorkerShape extends remote("Shape") {}
 
-/** What of a picture is a copy each time. */
-type PictureArrays = Pick<Picture, "positions" | "triangles" | "texcoords" | "image">;
-
 /** See {@link Picture}. */
-export interface WorkerPicture extends Omit<Seen<Picture, "Picture">, keyof PictureArrays> {}
-export class WorkerPicture extends remote("Picture") {
-  readonly #mesh: PictureArrays;
-
-  /** @internal */
-  constructor(line: Line, { object, constants }: Reference) {
-    const { positions, triangles, texcoords, image, ...rest } = constants;
-    super(line, { object, constants: rest });
-    this.#mesh = { positions, triangles, texcoords, image } as PictureArrays;
-  }
-
-  /** See {@link Picture.positions}. */
-  get positions(): Float64Array {
-    return this.#mesh.positions.slice();
-  }
-
-  /** See {@link Picture.triangles}. */
-  get triangles(): Uint32Array {
-    return this.#mesh.triangles.slice();
-  }
-
-  /** See {@link Picture.texcoords}. */
-  get texcoords(): Float32Array {
-    return this.#mesh.texcoords.slice();
-  }
-
-  /** See {@link Picture.image}. */
-  get image(): Image {
-    const { width, height, data } = this.#mesh.image;
-    return { width, height, data: data.slice() };
-  }
-}
+export interface WorkerPicture extends Seen<Picture, "Picture"> {}
+export class WorkerPicture extends remote("Picture") {}
 
 /** See {@link Deformer}. */
 export interface WorkerDeformer<M extends MethodName = MethodName> extends Seen<Deformer<M>, "Deformer"> {}

@@ -26,7 +26,7 @@ export class Remote {
     this.#object = object;
     if (object !== 0) line.keep(this, object);
     for (const [name, value] of Object.entries(constants)) {
-      Object.defineProperty(this, name, { value: Object.freeze(value), enumerable: true });
+      Object.defineProperty(this, name, { ...constant(value), enumerable: true });
     }
   }
 
@@ -81,6 +81,12 @@ export class Remote {
     const { shape } = this as { shape?: { report: { vertices: number } } };
     return vertexIds(new Place("invalid-handle", name), vertices, shape!.report.vertices);
   }
+}
+
+/** A value that no caller can change: of arrays, and what holds them, each reader gets a copy. */
+function constant(value: unknown): PropertyDescriptor {
+  const holds = ArrayBuffer.isView(value) || (value instanceof Object && Object.values(value).some(ArrayBuffer.isView));
+  return holds ? { get: () => structuredClone(value) } : { value: Object.freeze(value) };
 }
 
 /** Results in the caller's array. Errors: invalid-option. */
